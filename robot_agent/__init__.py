@@ -1,0 +1,1 @@
+"""The robot: from pictures, inertia and joints to servo targets, one folder a stage."""

@@ -1,0 +1,1 @@
+"""Real servos, IMU, cameras and power."""

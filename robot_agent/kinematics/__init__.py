@@ -1,0 +1,1 @@
+"""Leg kinematics at control rate."""

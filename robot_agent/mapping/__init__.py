@@ -1,0 +1,1 @@
+"""The terrain map in the world frame (ICRA'17 III-E)."""

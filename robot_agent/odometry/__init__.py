@@ -1,0 +1,1 @@
+"""Stereo-inertial odometry (ICRA'17 III-A)."""

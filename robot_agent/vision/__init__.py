@@ -1,0 +1,1 @@
+"""Camera geometry shared by odometry and perception."""

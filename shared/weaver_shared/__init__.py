@@ -1,0 +1,1 @@
+"""What crosses a process border: frames, messages, topics, the bus, configuration and robot descriptions."""

@@ -1,0 +1,1 @@
+"""Settings of the stages, one module each: typed, with their defaults."""

@@ -1,0 +1,71 @@
+"""Everything that crosses a process border, as frozen dataclasses. Arrays are row-major; units are SI unless named."""
+
+from weaver_shared.messages.commands import (
+    Answer,
+    Command,
+    CommandName,
+    TeleopFrame,
+)
+from weaver_shared.messages.estimation import (
+    AdaptationReport,
+    GaitParameters,
+    MapTile,
+    OdometryEstimate,
+    OdometryQuality,
+    TerrainEstimate,
+    Waypoint,
+)
+from weaver_shared.messages.sensing import (
+    CameraPicture,
+    ImuBatch,
+    Proprioception,
+    StereoFrame,
+)
+from weaver_shared.messages.telemetry import (
+    Event,
+    GaitState,
+    Health,
+    Heartbeat,
+    LeaseState,
+    LoopTiming,
+    MissionState,
+    ModeState,
+    Presence,
+    PowerState,
+    RobotState,
+    SafetyAction,
+    Severity,
+    TruthState,
+)
+
+__all__ = [
+    "AdaptationReport",
+    "Answer",
+    "CameraPicture",
+    "Command",
+    "CommandName",
+    "Event",
+    "GaitParameters",
+    "GaitState",
+    "Health",
+    "Heartbeat",
+    "ImuBatch",
+    "LeaseState",
+    "LoopTiming",
+    "MapTile",
+    "MissionState",
+    "ModeState",
+    "OdometryEstimate",
+    "OdometryQuality",
+    "PowerState",
+    "Presence",
+    "Proprioception",
+    "RobotState",
+    "SafetyAction",
+    "Severity",
+    "StereoFrame",
+    "TeleopFrame",
+    "TerrainEstimate",
+    "TruthState",
+    "Waypoint",
+]

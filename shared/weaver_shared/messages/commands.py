@@ -1,0 +1,61 @@
+"""What an operator asks of a robot, and the robot's answer."""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from weaver_shared.messages.estimation import Waypoint
+
+
+class CommandName(StrEnum):
+    TAKE_CONTROL = "take_control"
+    RELEASE_CONTROL = "release_control"
+    RETAIN_CONTROL = "retain_control"  # 2 Hz keep-alive of the lease, the operator's heartbeat
+    STAND = "stand"
+    SIT = "sit"
+    STOP = "stop"  # emergency stop; needs no lease; latches
+    RELEASE_STOP = "release_stop"
+    SET_MISSION = "set_mission"  # replaces the waypoints; does not start
+    START_MISSION = "start_mission"
+    PAUSE_MISSION = "pause_mission"
+    CLEAR_MISSION = "clear_mission"
+    SET_OVERRIDE = "set_override"  # name, value, seconds
+    CLEAR_OVERRIDE = "clear_override"  # name
+    SET_GAIT = "set_gait"  # name
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Command:
+    """One request. The robot refuses a stale epoch or a sequence number it has already seen from that operator."""
+
+    command: CommandName
+    operator: str
+    lease_epoch: int
+    sequence: int
+    name: str = ""
+    value: float = 0.0
+    seconds: float = 0.0
+    reason: str = ""
+    waypoints: tuple[Waypoint, ...] = field(default=())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer:
+    """`accepted` with what was really applied, or refused with a reason a person can read."""
+
+    accepted: bool
+    reason: str
+    lease_epoch: int = 0
+    applied_value: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TeleopFrame:
+    """A stick position; without a fresh one for 0.3 s the robot ramps to zero."""
+
+    operator: str
+    lease_epoch: int
+    sequence: int
+    dead_man: bool
+    forward: float  # -1..1 of the robot's limits
+    left: float
+    turn: float

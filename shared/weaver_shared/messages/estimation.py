@@ -1,0 +1,109 @@
+"""What the robot concludes about itself and the ground."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weaver_shared.transforms import Pose
+
+Array = NDArray[np.float64]
+
+
+class OdometryQuality(StrEnum):
+    INITIALISING = "initialising"
+    GOOD = "good"
+    DEGRADED = "degraded"
+    LOST = "lost"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OdometryEstimate:
+    """Pose of the body in the world at a frame's stamp (ICRA'17 III-A)."""
+
+    stamp_ns: int
+    position_in_world: Array  # (3,) m
+    wxyz: Array  # (4,) world_from_body
+    velocity_in_world: Array  # (3,) m/s
+    angular_velocity_in_body: Array  # (3,) rad/s
+    gyro_bias: Array  # (3,) rad/s
+    accel_bias: Array  # (3,) m/s^2
+    covariance: Array  # (6, 6) of rotation error (body, rad) then position error (world, m)
+    quality: OdometryQuality
+    reason: str  # why it is not good; empty when it is
+    tracked_features: int
+
+    @property
+    def world_from_body(self) -> Pose:
+        return Pose.of(self.position_in_world, self.wxyz)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TerrainEstimate:
+    """Roughness and step height of the patch ahead (ICRA'17 eqs. 7, 8), both 0..1; NaN where unknown."""
+
+    stamp_ns: int
+    roughness: float
+    roughness_sigma: float
+    step_height: float
+    step_height_sigma: float
+    features: Array  # (7,) f1..f7
+    plane_normal_in_world: Array  # (3,)
+    health: float  # 0..1, how far the pictures can be trusted
+    reason: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GaitParameters:
+    """What the adaptation asks of the gait (ICRA'17 eqs. 9-11)."""
+
+    stamp_ns: int
+    virtual_stiffness: float  # N/m
+    stride_frequency: float  # Hz
+    stride_height: float  # m
+    confidence: float  # 0..1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AdaptationReport:
+    """Why the gait parameters are what they are."""
+
+    stamp_ns: int
+    roughness: float  # worst in the circle under the body, 0..1; NaN unknown
+    roughness_sigma: float
+    step_height: float
+    step_height_sigma: float
+    ahead_roughness: float  # of the patch ahead
+    ahead_step_height: float
+    source: str  # "vision", "none"
+    desired: GaitParameters  # from the polynomials
+    applied: GaitParameters  # after overrides and rate limits
+    overridden: tuple[str, ...]  # names of GaitParameters fields an operator holds
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MapTile:
+    """A square of the terrain map, `size` x `size` cells; row index runs along x, column along y.
+
+    Cell (r, c) of tile (i, j) is centred at ((i * size + r + 0.5) * cell, (j * size + c + 0.5) * cell) in world.
+    """
+
+    stamp_ns: int
+    i: int
+    j: int
+    size: int
+    cell: float  # m
+    elevation_mm: NDArray[np.int16]  # (size, size), -32768 unknown
+    sigma_mm: NDArray[np.uint8]  # (size, size) standard deviation, 255 unknown
+    roughness: NDArray[np.uint8]  # (size, size), 0..200 for 0..1, 255 unknown
+    step_height: NDArray[np.uint8]  # (size, size), 0..200 for 0..1, 255 unknown
+    age_s: NDArray[np.uint8]  # (size, size) seconds since last seen, 254 and more, 255 never
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Waypoint:
+    """A place to go to, in world (m)."""
+
+    x: float
+    y: float

@@ -1,0 +1,159 @@
+"""What a robot tells its operators."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weaver_shared.messages.estimation import Waypoint
+
+Array = NDArray[np.float64]
+
+
+class SafetyAction(StrEnum):
+    """Ordered by severity; the most severe verdict wins."""
+
+    ALLOW = "allow"
+    HOLD = "hold"
+    SIT = "sit"
+    CUT = "cut"
+
+
+class Severity(StrEnum):
+    INFO = "info"
+    WARNING = "warning"
+    ERROR = "error"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Presence:
+    """Announces a robot to consoles; the payload of its liveliness query and of `state/presence`."""
+
+    robot_id: str
+    session: str  # differs for every start of the robot process
+    kind: str  # "SIM", "EMULATED BUS" or "REAL"
+    robot: str  # description name
+    world: str  # simulated world, empty for a real robot
+    schema: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Heartbeat:
+    stamp_ns: int
+    sequence: int
+    session: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModeState:
+    """State machine of the robot: OFF, READY, STAND, WALK, SIT, HOLD, FAULT, ESTOP."""
+
+    stamp_ns: int
+    mode: str
+    action: SafetyAction
+    reasons: tuple[str, ...]  # what holds the robot or keeps it from standing up; each vanishes when fixed
+    stopped: bool  # the latched stop
+    stop_level: str  # "", "settle" or "cut"
+    allowed: tuple[str, ...]  # CommandName values that would be accepted now from the holder
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LeaseState:
+    holder: str  # operator, empty when free
+    epoch: int
+    seconds_left: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MissionState:
+    stamp_ns: int
+    phase: str  # "empty", "ready", "active", "paused", "done"
+    waypoints: tuple[Waypoint, ...]
+    next_waypoint: int  # index of the waypoint being approached
+    cross_track_error: float  # m
+    distance_left: float  # m
+    lookahead_in_world: Array  # (2,) point the follower steers at; NaN when idle
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RobotState:
+    """Body, joints and feet, 50 Hz. Pose is the odometry propagated to now."""
+
+    stamp_ns: int
+    position_in_world: Array  # (3,)
+    wxyz: Array  # (4,)
+    velocity_command: Array  # (3,) vx, vy m/s and turn rad/s asked of the gait after all limits
+    velocity_in_body: Array  # (3,) estimated
+    joint_position: Array  # (joints,)
+    joint_torque: Array  # (joints,)
+    foot_in_body: Array  # (legs, 3) measured
+    foot_contact: NDArray[np.bool_]  # (legs,)
+    foot_force: Array  # (legs,) vertical, N, from joint torques
+    stability_margin: float  # m, static; negative outside the support polygon
+    roll: float
+    pitch: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GaitState:
+    stamp_ns: int
+    gait: str
+    phase: Array  # (legs,) 0..1 of the stride
+    swing: NDArray[np.bool_]  # (legs,)
+    parameters_frequency: float
+    parameters_height: float
+    parameters_stiffness: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PowerState:
+    stamp_ns: int
+    battery_voltage: float
+    battery_fraction: float  # 0..1
+    supply_power: float  # W, everything
+    motor_power: float  # W, servos
+    energy: float  # J since start
+    cost_of_transport: float  # eq. 12 over the last seconds, total; NaN at rest
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoopTiming:
+    name: str  # "walk", "vision", "physics", "render"
+    stamp_ns: int
+    rate: float  # Hz
+    period_error_p99: float  # s
+    overruns: int
+    cpu_fraction: float  # of one core
+    real_time_factor: float  # simulated over wall time; 1 on a real robot
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Health:
+    """What is alive and how well, 2 Hz, one per process."""
+
+    stamp_ns: int
+    timings: tuple[LoopTiming, ...]
+    odometry_quality: str
+    odometry_reason: str
+    odometry_age: float  # s since the last estimate
+    tracked_features: int
+    max_temperature: float  # degrees Celsius
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Event:
+    stamp_ns: int
+    severity: Severity
+    source: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TruthState:
+    """Ground truth of a simulated robot: for evaluation and display only."""
+
+    stamp_ns: int
+    position_in_world: Array
+    wxyz: Array
+    velocity_in_world: Array

@@ -1,0 +1,52 @@
+"""Where a robot's links are: classical Denavit-Hartenberg chains, all legs at once."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weaver_shared.robots.description import RobotDescription
+
+Array = NDArray[np.float64]
+
+
+def joint_frames_in_body(robot: RobotDescription, joint_position: Array) -> Array:
+    """Frames along every leg as homogeneous matrices, (legs, joints_per_leg + 1, 4, 4).
+
+    Entry 0 is the hip; entry i is the frame after joint i, so the last one is the foot. `joint_position` is
+    (joint_count,) or (legs, joints_per_leg) in rad.
+    """
+    legs, joints = robot.leg_count, robot.joints_per_leg
+    angles = np.asarray(joint_position, dtype=np.float64).reshape(legs, joints)
+    frames = np.zeros((legs, joints + 1, 4, 4))
+    frames[:, 0] = _hips(robot)
+    for index in range(joints):
+        frames[:, index + 1] = frames[:, index] @ _dh(robot.dh[index], angles[:, index])
+    return frames
+
+
+def feet_in_body(robot: RobotDescription, joint_position: Array) -> Array:
+    """Foot centres, (legs, 3) in metres."""
+    feet: Array = joint_frames_in_body(robot, joint_position)[:, -1, :3, 3]
+    return feet
+
+
+def _hips(robot: RobotDescription) -> Array:
+    cosine, sine = np.cos(robot.hip_yaws), np.sin(robot.hip_yaws)
+    result = np.zeros((robot.leg_count, 4, 4))
+    result[:, 0, 0], result[:, 0, 1] = cosine, -sine
+    result[:, 1, 0], result[:, 1, 1] = sine, cosine
+    result[:, 2, 2] = result[:, 3, 3] = 1.0
+    result[:, :3, 3] = robot.hips_in_body
+    return result
+
+
+def _dh(row: Array, angle: Array) -> Array:
+    """RotZ(theta + q) TransZ(d) TransX(r) RotX(alpha) for n angles, (n, 4, 4)."""
+    theta, d, r, alpha = row
+    ct, st = np.cos(theta + angle), np.sin(theta + angle)
+    ca, sa = np.cos(alpha), np.sin(alpha)
+    result = np.zeros((angle.size, 4, 4))
+    result[:, 0, 0], result[:, 0, 1], result[:, 0, 2], result[:, 0, 3] = ct, -st * ca, st * sa, r * ct
+    result[:, 1, 0], result[:, 1, 1], result[:, 1, 2], result[:, 1, 3] = st, ct * ca, -ct * sa, r * st
+    result[:, 2, 1], result[:, 2, 2], result[:, 2, 3] = sa, ca, d
+    result[:, 3, 3] = 1.0
+    return result

@@ -1,0 +1,1 @@
+"""The simulated robot: worlds, physics, servos, sensors and pictures."""
