@@ -66,6 +66,7 @@ EVENT = _topic("event", m.Event, 0.0, Priority.DATA, Policy.LOGGED)
 TELEOP = _topic("teleop", m.TeleopFrame, 20.0, Priority.REAL_TIME, Policy.LATEST)
 STEREO = _topic("sensor/stereo", m.StereoFrame, 20.0, Priority.DATA, Policy.LATEST)
 PROPRIOCEPTION = _topic("sensor/body", m.Proprioception, 100.0, Priority.INTERACTIVE, Policy.LATEST)
+SCENE = _topic("sim/scene", m.SceneState, 20.0, Priority.INTERACTIVE, Policy.LATEST)
 TRUTH = _topic("truth/state", m.TruthState, 50.0, Priority.DATA, Policy.LATEST)
 
 TOPICS: tuple[Topic, ...] = tuple(value for value in list(globals().values()) if isinstance(value, Topic))

@@ -21,6 +21,9 @@ from weaver_shared.messages.sensing import (
     Proprioception,
     StereoFrame,
 )
+from weaver_shared.messages.simulation import (
+    SceneState,
+)
 from weaver_shared.messages.telemetry import (
     Event,
     GaitState,
@@ -30,8 +33,8 @@ from weaver_shared.messages.telemetry import (
     LoopTiming,
     MissionState,
     ModeState,
-    Presence,
     PowerState,
+    Presence,
     RobotState,
     SafetyAction,
     Severity,
@@ -62,6 +65,7 @@ __all__ = [
     "Proprioception",
     "RobotState",
     "SafetyAction",
+    "SceneState",
     "Severity",
     "StereoFrame",
     "TeleopFrame",
