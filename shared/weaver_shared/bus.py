@@ -223,7 +223,7 @@ class ZenohBus:
     def close(self) -> None:
         with self._lock:
             self._closed = True
-        self._session.close()
+        self._session.close()  # type: ignore[no-untyped-call]
 
     def _serve_last_values(self, robot_id: str) -> None:
         if robot_id in self._queryable_of:

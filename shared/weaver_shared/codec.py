@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import dataclasses
 import typing
-from functools import cache
 from typing import Any, TypeVar
 
 import msgspec
@@ -22,13 +21,14 @@ SCHEMA_VERSION = 1
 M = TypeVar("M")
 
 _DTYPES = {"|b1", "|u1", "<i2", "<i8", "<f4", "<f8"}
-_encoder = msgspec.msgpack.Encoder(enc_hook=lambda value: _plain(value))
+_encoder = msgspec.msgpack.Encoder()
+_layouts: dict[type[Any], dict[str, Any]] = {}
 
 
 def encode(message: Any) -> bytes:
     """Bytes of any dataclass in `weaver_shared.messages`."""
     kind = type(message)
-    fields = [getattr(message, name) for name in _field_names(kind)]
+    fields = [getattr(message, name) for name in _layout(kind)]
     return _encoder.encode([SCHEMA_VERSION, kind.__name__, *map(_plain_field, fields)])
 
 
@@ -51,26 +51,24 @@ def decode(data: bytes | bytearray | memoryview, kind: type[M]) -> M:
 
 
 def _build(kind: type[M], values: list[Any]) -> M:
-    names = _field_names(kind)
-    if len(values) != len(names):
-        raise MessageError(f"{kind.__name__}: {len(values)} fields, expected {len(names)}")
-    hints = _hints(kind)
+    layout = _layout(kind)
+    if len(values) != len(layout):
+        raise MessageError(f"{kind.__name__}: {len(values)} fields, expected {len(layout)}")
     try:
-        return kind(**{name: _restore(hints[name], value) for name, value in zip(names, values, strict=True)})
+        return kind(**{name: _restore(layout[name], value) for name, value in zip(layout, values, strict=True)})
     except MessageError:
         raise
-    except (msgspec.ValidationError, TypeError, ValueError) as error:
+    except (msgspec.ValidationError, TypeError, ValueError, OverflowError) as error:
         raise MessageError(f"{kind.__name__}: {error}") from error
 
 
-@cache
-def _field_names(kind: type) -> tuple[str, ...]:
-    return tuple(field.name for field in dataclasses.fields(kind))
-
-
-@cache
-def _hints(kind: type) -> dict[str, Any]:
-    return typing.get_type_hints(kind)
+def _layout(kind: type[Any]) -> dict[str, Any]:
+    """Field names with their types, in wire order."""
+    layout = _layouts.get(kind)
+    if layout is None:
+        hints = typing.get_type_hints(kind)
+        layout = _layouts[kind] = {field.name: hints[field.name] for field in dataclasses.fields(kind)}
+    return layout
 
 
 def _plain_field(value: Any) -> Any:
@@ -84,11 +82,11 @@ def _plain_field(value: Any) -> Any:
 def _plain(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         little = np.ascontiguousarray(value, dtype=value.dtype.newbyteorder("<"))
-        return [little.dtype.str, list(little.shape), memoryview(little.reshape(-1)).cast("B") if little.size else b""]
+        return [little.dtype.str, list(little.shape), little.reshape(-1).data.cast("B") if little.size else b""]
     if isinstance(value, np.generic):
         return value.item()
     if dataclasses.is_dataclass(value):
-        return [_plain_field(getattr(value, name)) for name in _field_names(type(value))]
+        return [_plain_field(getattr(value, name)) for name in _layout(type(value))]
     raise TypeError(f"{type(value).__name__} does not travel in messages")
 
 

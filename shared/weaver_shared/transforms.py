@@ -70,7 +70,8 @@ def rotation_exp(rotation_vector: ArrayLike) -> Array:
     cross = skew(vector)
     if angle < 1e-8:
         return np.eye(3) + cross + 0.5 * cross @ cross
-    return np.eye(3) + np.sin(angle) / angle * cross + (1.0 - np.cos(angle)) / angle**2 * (cross @ cross)
+    rotation: Array = np.eye(3) + np.sin(angle) / angle * cross + (1.0 - np.cos(angle)) / angle**2 * (cross @ cross)
+    return rotation
 
 
 def rotation_log(rotation: ArrayLike) -> Array:
@@ -80,7 +81,7 @@ def rotation_log(rotation: ArrayLike) -> Array:
     sine = float(np.linalg.norm(imaginary))
     if sine < 1e-9:
         return 2.0 * imaginary
-    return 2.0 * np.arctan2(sine, w) / sine * imaginary
+    return float(2.0 * np.arctan2(sine, w) / sine) * imaginary
 
 
 def rotation_from_wxyz(wxyz: ArrayLike) -> Array:
