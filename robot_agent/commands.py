@@ -1,0 +1,292 @@
+"""The command desk: answers every command with what is applied or why not, and keeps what the operator wants.
+
+Commands arrive from the bus on other threads; the walk loop reads `orders()` once a tick. Times here are wall-clock
+nanoseconds, because they concern people and networks.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+
+from robot_agent.adaptation import ParameterOverrides
+from robot_agent.authority import Authority
+from robot_agent.mission import Mission
+from robot_agent.orders import Orders
+from weaver_shared.config.command import CommandLimits
+from weaver_shared.errors import WeaverError
+from weaver_shared.messages import (
+    Answer,
+    Command,
+    CommandName,
+    Event,
+    LeaseState,
+    MissionState,
+    Severity,
+    TeleopFrame,
+)
+from weaver_shared.robots import RobotDescription
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Situation:
+    """What the desk must know of the robot to judge a command."""
+
+    stamp_ns: int  # robot clock
+    robot_xy: tuple[float, float]
+    mode: str
+    stand_blockers: tuple[str, ...]  # what keeps the robot from standing up
+
+
+class CommandDesk:
+    def __init__(
+        self,
+        *,
+        robot: RobotDescription,
+        overrides: ParameterOverrides,
+        wall_clock_ns: Callable[[], int],
+        limits: CommandLimits | None = None,
+    ) -> None:
+        self._robot = robot
+        self._overrides = overrides
+        self._now_ns = wall_clock_ns
+        self._limits = limits or CommandLimits()
+        self._lock = threading.RLock()
+        self._authority = Authority()
+        self._mission = Mission(self._limits)
+        self._situation = Situation(stamp_ns=0, robot_xy=(0.0, 0.0), mode="OFF", stand_blockers=("starting",))
+        self._events: deque[Event] = deque(maxlen=1000)
+        self._stop_level = ""
+        self._stand = False
+        self._gait = robot.gaits[0]
+        self._teleop: TeleopFrame | None = None
+        self._teleop_heard_ns = 0
+        self._teleop_sequence = -1
+        self._handlers: dict[CommandName, Callable[[Command], Answer]] = {
+            CommandName.RELEASE_CONTROL: self._release_control,
+            CommandName.RETAIN_CONTROL: lambda _: self._accept(),
+            CommandName.STAND: self._stand_up,
+            CommandName.SIT: self._sit_down,
+            CommandName.RELEASE_STOP: self._release_stop,
+            CommandName.SET_MISSION: self._set_mission,
+            CommandName.START_MISSION: self._start_mission,
+            CommandName.PAUSE_MISSION: self._pause_mission,
+            CommandName.CLEAR_MISSION: self._clear_mission,
+            CommandName.SET_OVERRIDE: self._set_override,
+            CommandName.CLEAR_OVERRIDE: self._clear_override,
+            CommandName.SET_GAIT: self._set_gait,
+        }
+
+    def answer(self, command: Command) -> Answer:
+        """Carry out or refuse one command; never raises."""
+        with self._lock:
+            now = self._now_ns()
+            if command.command is CommandName.STOP:
+                reply = self._stop(command)
+            elif command.command is CommandName.TAKE_CONTROL:
+                reply = self._take_control(command, now)
+            elif refusal := self._authority.refusal(command, now):
+                reply = Answer(accepted=False, reason=refusal, lease_epoch=self._authority.epoch)
+            else:
+                reply = self._handlers[command.command](command)
+            if command.command is not CommandName.RETAIN_CONTROL:
+                self._log(command, reply)
+            return reply
+
+    def teleoperate(self, frame: TeleopFrame) -> None:
+        """Take a stick position of the holder; anything stale, foreign or not finite is ignored."""
+        values = (frame.forward, frame.left, frame.turn)
+        with self._lock:
+            fresh = frame.sequence > self._teleop_sequence or frame.lease_epoch != self._authority.epoch
+            theirs = frame.operator == self._authority.holder and frame.lease_epoch == self._authority.epoch
+            if theirs and fresh and all(isfinite(value) for value in values):
+                self._teleop = frame
+                self._teleop_sequence = frame.sequence
+                self._teleop_heard_ns = self._now_ns()
+
+    def observe(self, situation: Situation) -> None:
+        with self._lock:
+            self._situation = situation
+
+    def orders(self) -> Orders:
+        with self._lock:
+            now = self._now_ns()
+            silence = self._authority.silence(now)
+            if not isfinite(silence):
+                self._mission.pause()
+            return Orders(
+                stop_level=self._stop_level,
+                stand=self._stand,
+                operator_silence=silence,
+                gait=self._gait,
+                mission_active=self._mission.phase == "active",
+                waypoints=self._mission.waypoints,
+                mission_serial=self._mission.serial,
+                teleop_velocity=self._teleop_velocity(now),
+            )
+
+    def mission_progress(
+        self, *, index: int, cross_track_error: float, distance_left: float, lookahead: np.ndarray, done: bool
+    ) -> None:
+        with self._lock:
+            if self._mission.phase != "active":
+                return
+            self._mission.progress(
+                index=index, cross_track_error=cross_track_error, distance_left=distance_left, lookahead=lookahead
+            )
+            if done:
+                self._mission.finish()
+                self.note(Severity.INFO, "the mission is done")
+
+    def note(self, severity: Severity, text: str, source: str = "robot") -> None:
+        with self._lock:
+            self._events.append(Event(stamp_ns=self._situation.stamp_ns, severity=severity, source=source, text=text))
+
+    def take_events(self) -> list[Event]:
+        with self._lock:
+            events = list(self._events)
+            self._events.clear()
+            return events
+
+    def seated_by_safety(self) -> None:
+        """The robot sat down on its own account: standing up again needs a new command."""
+        with self._lock:
+            self._stand = False
+            self._mission.pause()
+
+    def lease(self) -> LeaseState:
+        with self._lock:
+            left = self._authority.seconds_left(self._now_ns())
+            return LeaseState(holder=self._authority.holder, epoch=self._authority.epoch, seconds_left=left)
+
+    def mission(self, stamp_ns: int) -> MissionState:
+        with self._lock:
+            return self._mission.state(stamp_ns)
+
+    def allowed(self) -> tuple[str, ...]:
+        """Commands that would be accepted from the holder now."""
+        with self._lock:
+            mode = self._situation.mode
+            names = {CommandName.STOP, CommandName.TAKE_CONTROL, CommandName.RELEASE_CONTROL, CommandName.SET_GAIT}
+            names |= {CommandName.SET_MISSION, CommandName.SET_OVERRIDE, CommandName.CLEAR_OVERRIDE}
+            if self._stop_level:
+                names.add(CommandName.RELEASE_STOP)
+            elif mode in ("OFF", "READY", "SIT") and not self._situation.stand_blockers:
+                names.add(CommandName.STAND)
+            if mode in ("STAND", "WALK", "HOLD"):
+                names.add(CommandName.SIT)
+            if self._mission.phase in ("ready", "paused") and mode in ("STAND", "WALK"):
+                names.add(CommandName.START_MISSION)
+            if self._mission.phase == "active":
+                names.add(CommandName.PAUSE_MISSION)
+            if self._mission.phase != "empty":
+                names.add(CommandName.CLEAR_MISSION)
+            return tuple(sorted(names))
+
+    def _take_control(self, command: Command, now_ns: int) -> Answer:
+        if not command.operator.strip():
+            return self._refuse("an operator needs a name")
+        return self._authority.take(command, now_ns)
+
+    def _release_control(self, _: Command) -> Answer:
+        self._authority.release()
+        self._teleop = None
+        self._mission.pause()
+        return self._accept()
+
+    def _stop(self, command: Command) -> Answer:
+        cut = command.name == "cut" or self._stop_level == "cut"
+        self._stop_level = "cut" if cut else "settle"
+        self._stand = False
+        self._teleop = None
+        self._mission.pause()
+        return self._accept()
+
+    def _release_stop(self, _: Command) -> Answer:
+        if not self._stop_level:
+            return self._refuse("the robot is not stopped")
+        if self._situation.mode != "ESTOP":
+            return self._refuse("the robot is still settling; release the stop when it sits")
+        self._stop_level = ""
+        return self._accept()
+
+    def _stand_up(self, _: Command) -> Answer:
+        if self._stop_level:
+            return self._refuse("the robot is stopped; release the stop first")
+        if self._situation.stand_blockers:
+            return self._refuse("; ".join(self._situation.stand_blockers))
+        self._stand = True
+        return self._accept()
+
+    def _sit_down(self, _: Command) -> Answer:
+        self._mission.pause()
+        self._stand = False
+        return self._accept()
+
+    def _set_mission(self, command: Command) -> Answer:
+        refusal = self._mission.replace(command.waypoints, self._situation.robot_xy)
+        return self._refuse(refusal) if refusal else self._accept(float(len(command.waypoints)))
+
+    def _start_mission(self, _: Command) -> Answer:
+        if self._stop_level:
+            return self._refuse("the robot is stopped; release the stop first")
+        if self._situation.mode not in ("STAND", "WALK", "HOLD"):
+            return self._refuse(f"the robot must stand before it walks; it is in {self._situation.mode}")
+        refusal = self._mission.start()
+        return self._refuse(refusal) if refusal else self._accept()
+
+    def _pause_mission(self, _: Command) -> Answer:
+        self._mission.pause()
+        return self._accept()
+
+    def _clear_mission(self, _: Command) -> Answer:
+        self._mission.replace((), self._situation.robot_xy)
+        return self._accept()
+
+    def _set_override(self, command: Command) -> Answer:
+        seconds = command.seconds or self._limits.override_seconds
+        if not (isfinite(seconds) and 0.0 < seconds <= self._limits.override_seconds):
+            return self._refuse(f"an override lasts above 0 and up to {self._limits.override_seconds:.0f} s")
+        try:
+            self._overrides.set(command.name, command.value, self._situation.stamp_ns + round(seconds * 1e9))
+        except WeaverError as error:
+            return self._refuse(str(error))
+        return self._accept(command.value)
+
+    def _clear_override(self, command: Command) -> Answer:
+        try:
+            self._overrides.clear(command.name)
+        except WeaverError as error:
+            return self._refuse(str(error))
+        return self._accept()
+
+    def _set_gait(self, command: Command) -> Answer:
+        if command.name not in self._robot.gaits:
+            return self._refuse(f"gait {command.name!r:.40} is unknown; known are {', '.join(self._robot.gaits)}")
+        self._gait = command.name  # type: ignore[assignment]
+        return self._accept()
+
+    def _teleop_velocity(self, now_ns: int) -> np.ndarray | None:
+        frame = self._teleop
+        if frame is None or now_ns - self._teleop_heard_ns > self._limits.teleop_silence * 1e9 or not frame.dead_man:
+            return None
+        stick = np.clip([frame.forward, frame.left, frame.turn], -1.0, 1.0)
+        return stick * [self._limits.teleop_forward, self._limits.teleop_left, self._limits.teleop_turn]
+
+    def _accept(self, applied: float = 0.0) -> Answer:
+        return Answer(accepted=True, reason="", lease_epoch=self._authority.epoch, applied_value=applied)
+
+    def _refuse(self, reason: str) -> Answer:
+        return Answer(accepted=False, reason=reason, lease_epoch=self._authority.epoch)
+
+    def _log(self, command: Command, reply: Answer) -> None:
+        what = command.command.value.replace("_", " ")
+        detail = " ".join(part for part in (command.name, f"{command.value:g}" if command.value else "") if part)
+        outcome = "" if reply.accepted else f": refused, {reply.reason}"
+        severity = Severity.INFO if reply.accepted else Severity.WARNING
+        self.note(severity, " ".join(filter(None, (what, detail))) + outcome, source=command.operator)

@@ -1,0 +1,36 @@
+"""What the operator wants of the robot at this moment; written by the command desk, read by the walk pipeline."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weaver_shared.messages import Waypoint
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Orders:
+    stop_level: str  # "", "settle", "cut"
+    stand: bool
+    operator_silence: float  # s
+    gait: str
+    mission_active: bool
+    waypoints: tuple[Waypoint, ...]
+    mission_serial: int  # rises when the follower must begin anew
+    teleop_velocity: NDArray[np.float64] | None  # (3,) fractions -1..1 of the limits; None: nobody steers
+
+
+def idle_orders(gait: str = "tripod") -> Orders:
+    """Nobody wants anything: sit with torque off."""
+    return Orders(
+        stop_level="",
+        stand=False,
+        operator_silence=float("inf"),
+        gait=gait,
+        mission_active=False,
+        waypoints=(),
+        mission_serial=0,
+        teleop_velocity=None,
+    )

@@ -1,0 +1,218 @@
+"""The robot's data flow, stage after stage (ICRA'17 Fig. 2). No I/O, no clock, no branch on simulated or real.
+
+    vision loop   pictures, IMU -> odometry -> perception -> mapping -> adaptation
+    walk loop     joints, IMU   -> state    -> navigation -> locomotion -> joint targets, under safety
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robot_agent.adaptation import AdaptationController, ParameterOverrides
+from robot_agent.body import JointTargets
+from robot_agent.limits import JointGate
+from robot_agent.locomotion import Walker, WalkInput, WalkOutput
+from robot_agent.mapping import TerrainMap
+from robot_agent.modes import ModeMachine, Permission
+from robot_agent.navigation import FollowerOutput, PathFollower
+from robot_agent.odometry import NavigationState, StatePropagator, StereoInertialOdometry
+from robot_agent.orders import Orders
+from robot_agent.perception import TerrainPerception
+from robot_agent.safety import SafetySupervisor, Verdict
+from robot_agent.vigilance import Vigilance
+from robot_agent.vision.camera import StereoCalibration
+from weaver_shared.messages import (
+    AdaptationReport,
+    ImuBatch,
+    MapTile,
+    OdometryEstimate,
+    Proprioception,
+    StereoFrame,
+    TerrainEstimate,
+    Waypoint,
+)
+from weaver_shared.robots import RobotDescription
+from weaver_shared.robots.forward_kinematics import feet_in_body
+from weaver_shared.transforms import Pose
+
+REPORT_LIFETIME = 1.0
+"""Seconds after which an adaptation report no longer describes the ground under the robot."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VisionTick:
+    odometry: OdometryEstimate
+    terrain: TerrainEstimate | None  # None in frames that perception leaves out
+    report: AdaptationReport | None
+    tiles: tuple[MapTile, ...]
+
+
+class VisionPipeline:
+    """Pictures and inertia in; pose, map and desired gait parameters out."""
+
+    def __init__(self, robot: RobotDescription, initial: Pose, *, perceive_every: int = 2) -> None:
+        calibration = StereoCalibration.of_robot(robot)
+        self._odometry = StereoInertialOdometry(calibration=calibration, imu=robot.imu, initial=initial)
+        self._perception = TerrainPerception(calibration)
+        self._map = TerrainMap()
+        self._adaptation = AdaptationController()
+        self._perceive_every = perceive_every
+        self._frames = 0
+        self._adapted_ns: int | None = None
+
+    def step(self, frame: StereoFrame, imu: ImuBatch) -> VisionTick:
+        """One stereo pair with all IMU samples since the previous one."""
+        odometry = self._odometry.step(frame, imu)
+        self._frames += 1
+        if self._frames % self._perceive_every:
+            return VisionTick(odometry=odometry, terrain=None, report=None, tiles=())
+        perceived = self._perception.step(frame, odometry)
+        self._map.update(perceived, odometry)
+        x, y, _ = odometry.position_in_world
+        worst = self._map.worst_within(x, y)
+        dt = 0.0 if self._adapted_ns is None else (frame.stamp_ns - self._adapted_ns) * 1e-9
+        self._adapted_ns = frame.stamp_ns
+        report = self._adaptation.step(worst, perceived.estimate, frame.stamp_ns, dt)
+        return VisionTick(
+            odometry=odometry,
+            terrain=perceived.estimate,
+            report=report,
+            tiles=tuple(self._map.changed_tiles(frame.stamp_ns)),
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WalkTick:
+    """Everything one control tick concluded."""
+
+    stamp_ns: int
+    targets: JointTargets
+    state: NavigationState
+    verdict: Verdict
+    permission: Permission
+    velocity_command: NDArray[np.float64]  # (3,) asked of the gait
+    walk: WalkOutput
+    report: AdaptationReport
+    follower: FollowerOutput | None
+
+
+class WalkPipeline:
+    """Joints, inertia and the operator's orders in; joint targets out."""
+
+    def __init__(self, robot: RobotDescription, overrides: ParameterOverrides, dt: float) -> None:
+        self._robot = robot
+        self._dt = dt
+        self._overrides = overrides
+        self._fallback = AdaptationController()
+        self._follower = PathFollower()
+        self._walker = Walker(robot, dt=dt)
+        self._safety = SafetySupervisor()
+        self._vigilance = Vigilance()
+        self._modes = ModeMachine()
+        self._gate = JointGate(robot)
+        self._propagator: StatePropagator | None = None
+        self._posture = "sitting"
+        self._report: AdaptationReport | None = None
+        self._path: tuple[Waypoint, ...] = ()
+        self._path_index = 0
+        self._path_serial = -1
+        self._torque_limit = np.tile([robot.servos[j.servo].stall_torque for j in robot.joints], robot.leg_count)
+
+    def correct(self, estimate: OdometryEstimate) -> None:
+        """Take the vision loop's newest pose."""
+        if self._propagator is not None:
+            self._propagator.correct(estimate)
+        self._vigilance.odometry_arrived(estimate)
+
+    def adapt(self, report: AdaptationReport) -> None:
+        """Take the vision loop's newest gait parameters."""
+        self._report = report
+
+    def step(self, sensed: Proprioception, orders: Orders) -> WalkTick:
+        state = self._navigate(sensed)
+        verdict = self._safety.step(
+            self._vigilance.inspect(sensed, state, orders, upright=self._posture != "sitting"), self._dt
+        )
+        permission = self._modes.step(orders, verdict, self._posture)
+        velocity, follower = self._velocity(state, orders, permission)
+        report = self._parameters(sensed.stamp_ns)
+        if not permission.torque_on:
+            self._walker.reset(sensed.joint_position)
+        walk = self._walker.step(
+            WalkInput(
+                stamp_ns=sensed.stamp_ns,
+                velocity=velocity,
+                parameters=report.applied,
+                gait=orders.gait,
+                stand=permission.stand,
+                joint_position=sensed.joint_position,
+                joint_torque=sensed.joint_torque,
+                foot_contact=sensed.foot_contact,
+                gravity_in_body=state.gravity_in_body,
+            )
+        )
+        self._posture = walk.posture
+        targets = JointTargets(
+            stamp_ns=sensed.stamp_ns,
+            position=walk.joint_position,
+            torque_limit=self._torque_limit,
+            torque_on=permission.torque_on,
+        )
+        return WalkTick(
+            stamp_ns=sensed.stamp_ns,
+            targets=self._gate.pass_on(targets, sensed.joint_position, self._dt),
+            state=state,
+            verdict=verdict,
+            permission=permission,
+            velocity_command=velocity,
+            walk=walk,
+            report=report,
+            follower=follower,
+        )
+
+    def _navigate(self, sensed: Proprioception) -> NavigationState:
+        if self._propagator is None:
+            self._propagator = StatePropagator(self._robot.imu, initial_pose(self._robot, sensed.joint_position))
+        return self._propagator.propagate(sensed.imu)
+
+    def _velocity(
+        self, state: NavigationState, orders: Orders, permission: Permission
+    ) -> tuple[NDArray[np.float64], FollowerOutput | None]:
+        """Body velocity (vx, vy, turn) from the mission or the stick, and what the follower said."""
+        if not permission.walk:
+            return np.zeros(3), None
+        if orders.teleop_velocity is not None:
+            return orders.teleop_velocity, None
+        if not orders.mission_active:
+            return np.zeros(3), None
+        if orders.mission_serial != self._path_serial or self._path[1:] != orders.waypoints:
+            self._begin_path(state, orders)
+        follower = self._follower.step(state.world_from_body, self._path, self._path_index)
+        self._path_index = follower.index
+        return follower.velocity, follower
+
+    def _begin_path(self, state: NavigationState, orders: Orders) -> None:
+        """The path begins where the robot stands; waypoints changed under way keep what is behind it."""
+        if orders.mission_serial != self._path_serial:
+            x, y, _ = state.world_from_body.position
+            self._path = (Waypoint(x=float(x), y=float(y)), *orders.waypoints)
+            self._path_index = 1
+        else:
+            self._path = (self._path[0], *orders.waypoints)
+        self._path_serial = orders.mission_serial
+
+    def _parameters(self, stamp_ns: int) -> AdaptationReport:
+        """The vision loop's parameters, or the safe gait when they are missing or old, under the overrides."""
+        report = self._report
+        if report is None or (stamp_ns - report.stamp_ns) * 1e-9 > REPORT_LIFETIME:
+            report = self._fallback.unknown(stamp_ns, self._dt)
+        return self._overrides.apply(report, stamp_ns)
+
+
+def initial_pose(robot: RobotDescription, joint_position: NDArray[np.float64]) -> Pose:
+    """world_from_body at start: over the origin, as high as the lowest foot says, heading along x."""
+    lowest = float(feet_in_body(robot, joint_position)[:, 2].min()) - robot.foot_radius
+    return Pose(rotation=np.eye(3), position=np.array([0.0, 0.0, -lowest]))
