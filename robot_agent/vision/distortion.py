@@ -24,7 +24,7 @@ def normalise(camera: PinholeCamera, pixels: Array) -> Array:
     if camera.distortion_model == "equidistant":
         undistorted = cv2.fisheye.undistortPoints(points, camera.matrix, camera.distortion)
     else:
-        undistorted = cv2.undistortPointsIter(points, camera.matrix, camera.distortion, None, None, _CONVERGED)
+        undistorted = cv2.undistortPoints(points, camera.matrix, camera.distortion, criteria=_CONVERGED)
     return np.asarray(undistorted, dtype=np.float64).reshape(-1, 2)
 
 
