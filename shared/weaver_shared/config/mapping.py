@@ -1,0 +1,29 @@
+"""Settings of the terrain map (ICRA'17 III-E, Fig. 7)."""
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from weaver_shared.config.perception import FeatureConfig
+
+Positive = Annotated[float, Field(gt=0.0)]
+Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+
+
+class MappingConfig(BaseModel):
+    """Lengths in m; variances as standard deviations in m."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    cell: Positive = 0.02
+    tile: Annotated[int, Field(ge=8)] = 32  # cells along a tile's edge
+    tiles: Annotated[int, Field(ge=3)] = 11  # along the window's edge: 7.04 m, at least 3.2 m to each side
+    gate: Positive = 3.0  # standard deviations an elevation may differ from the map's
+    rejections: Annotated[int, Field(ge=1, le=255)] = 3  # in a row, after which the new elevation is believed
+    sigma_floor: Positive = 0.002  # a cell is never known better
+    drift: Annotated[float, Field(ge=0.0)] = 0.004  # m per square root of a second: odometry and the ground change
+    sigma_ceiling: Positive = 0.05  # an old cell is kept, and never thought worse than this
+    window: Annotated[int, Field(ge=5)] = 15  # cells along the square whose features make a cell's roughness
+    min_coverage: Fraction = 0.3  # of that square
+    query_radius: Positive = 0.45  # m about the body: the feet and a stride
+    features: FeatureConfig = FeatureConfig()

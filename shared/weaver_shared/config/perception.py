@@ -1,0 +1,82 @@
+"""Settings of the stereo terrain perception (ICRA'17 III-D)."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Positive = Annotated[float, Field(gt=0.0)]
+Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+PlaneMode = Literal["robust", "paper"]
+
+
+class _Settings(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class MatchingConfig(_Settings):
+    """Semi-global matching at the working resolution."""
+
+    scale: Annotated[float, Field(gt=0.0, le=1.0)] = 0.5  # of the camera's picture: 320 x 240 of 640 x 480
+    disparities: Annotated[int, Field(ge=16, multiple_of=16)] = 64
+    block: Annotated[int, Field(ge=1)] = 5  # px
+    uniqueness: Annotated[int, Field(ge=0)] = 8  # percent by which the best cost beats the second
+    left_right_difference: Annotated[int, Field(ge=0)] = 1  # px both directions may differ by
+    disparity_sigma: Positive = 0.24  # px, measured on rendered rough ground at 320 x 240
+    smallest_disparity: Positive = 6.0  # px; beyond it a point says little about centimetres
+
+
+class GridConfig(_Settings):
+    """Disparities to the highest point of each cell, and the gates on the way."""
+
+    cell: Positive = 0.02  # m
+    reach: Positive = 1.6  # m from the camera along the ground; height sigma there is about 1 cm
+    height_gate: Positive = 0.25  # m above or below the plane of the feet, at the robot
+    gate_slope: Annotated[float, Field(ge=0.0)] = 0.36  # the gate opens with distance: 20 degrees of slope pass
+    min_points: Annotated[int, Field(ge=1)] = 2
+    top_band: Positive = 0.015  # m under a cell's highest point that count as its top
+
+
+class PatchConfig(_Settings):
+    """The patch ahead about the size of the footprint, in m from the camera along the heading."""
+
+    near: Positive = 0.3
+    far: Positive = 0.9
+    width: Positive = 0.8
+    min_coverage: Fraction = 0.25  # of its cells; with fewer the ground is unknown
+
+
+class FeatureConfig(_Settings):
+    """Weights a_i and norms of eqs. 7 and 8; the paper sets them empirically and prints none.
+
+    Each a_i of roughness is the reciprocal of the feature's value on ground whose centre line average is 5 cm, times
+    its share; so roughness is 1 there.
+    """
+
+    edge_height: Positive = 0.02  # m between neighbours of a cell pair that is an edge
+    roughness_weights: tuple[float, float, float, float, float] = (8.0, 4.0, 1.2, 0.6, 0.2)
+    roughness_norm: Positive = 1.0
+    peak_weight: float = 1.0  # a_6
+    edge_weight: float = 1.0  # a_7
+    step_norm: Positive = 0.18  # m, 113 % of the clearance: the highest of the paper's testbed
+
+
+class HealthConfig(_Settings):
+    """Where each measure of picture quality counts as bad (0) and good (1)."""
+
+    contrast: tuple[float, float] = (2.0, 8.0)  # grey levels, median local standard deviation
+    sharpness: tuple[float, float] = (0.12, 0.35)  # horizontal and vertical detail relative to contrast
+    consistency: tuple[float, float] = (0.45, 0.80)  # mean correlation of matched windows
+    density: tuple[float, float] = (0.25, 0.60)  # fraction of ground pixels with a match
+    smallest: Fraction = 0.3  # below it nothing is concluded from a frame
+
+
+class PerceptionConfig(_Settings):
+    """The stage as a whole. `mode` paper is the literal chain: plain least squares, no gates on the plane."""
+
+    mode: PlaneMode = "robust"
+    foot_depth: Positive = 0.165  # m, the soles under the body's origin when standing
+    matching: MatchingConfig = MatchingConfig()
+    grid: GridConfig = GridConfig()
+    patch: PatchConfig = PatchConfig()
+    features: FeatureConfig = FeatureConfig()
+    health: HealthConfig = HealthConfig()
