@@ -36,7 +36,7 @@ def decode(data: bytes | bytearray | memoryview, kind: type[M]) -> M:
     """The message in `data`. Raises MessageError when it is damaged, of another kind or another schema."""
     try:
         parts = msgspec.msgpack.decode(data)
-    except (msgspec.DecodeError, RecursionError) as error:
+    except (msgspec.MsgspecError, ValueError, TypeError, OverflowError, RecursionError) as error:
         raise MessageError(f"{kind.__name__}: not a MessagePack message ({error})") from error
     if not isinstance(parts, list) or len(parts) < 2:
         raise MessageError(f"{kind.__name__}: expected a list of version, kind and fields")

@@ -35,7 +35,7 @@ def test_the_base_uses_little_and_zenoh_in_the_bus_alone(imports: grimp.ImportGr
 
 
 def test_no_stage_takes_time_or_randomness_by_itself(imports: grimp.ImportGraph) -> None:
-    stages = "adaptation kinematics locomotion mapping navigation odometry perception vision".split()
+    stages = ["adaptation", "kinematics", "locomotion", "mapping", "navigation", "odometry", "perception", "vision"]
     for stage in stages:
         modules = imports.find_matching_modules(f"robot_agent.{stage}.**") | {f"robot_agent.{stage}"}
         for module in modules:
