@@ -13,11 +13,6 @@ from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
-
-from robot_agent.adaptation import ParameterOverrides
-from robot_agent.authority import Authority
-from robot_agent.mission import Mission
-from robot_agent.orders import Orders
 from weaver_shared.config.command import CommandLimits
 from weaver_shared.errors import WeaverError
 from weaver_shared.messages import (
@@ -32,6 +27,11 @@ from weaver_shared.messages import (
 )
 from weaver_shared.robots import RobotDescription
 
+from robot_agent.adaptation import ParameterOverrides
+from robot_agent.authority import Authority
+from robot_agent.mission import Mission
+from robot_agent.orders import Orders
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Situation:
@@ -40,6 +40,7 @@ class Situation:
     stamp_ns: int  # robot clock
     robot_xy: tuple[float, float]
     mode: str
+    settled: bool  # seated or without torque
     stand_blockers: tuple[str, ...]  # what keeps the robot from standing up
 
 
@@ -59,7 +60,9 @@ class CommandDesk:
         self._lock = threading.RLock()
         self._authority = Authority()
         self._mission = Mission(self._limits)
-        self._situation = Situation(stamp_ns=0, robot_xy=(0.0, 0.0), mode="OFF", stand_blockers=("starting",))
+        self._situation = Situation(
+            stamp_ns=0, robot_xy=(0.0, 0.0), mode="OFF", settled=True, stand_blockers=("starting",)
+        )
         self._events: deque[Event] = deque(maxlen=1000)
         self._stop_level = ""
         self._stand = False
@@ -109,6 +112,11 @@ class CommandDesk:
                 self._teleop_sequence = frame.sequence
                 self._teleop_heard_ns = self._now_ns()
 
+    def stand_unattended(self) -> None:
+        """Stand up without an operator: for a simulated robot that is to be found standing."""
+        with self._lock:
+            self._stand = True
+
     def observe(self, situation: Situation) -> None:
         with self._lock:
             self._situation = situation
@@ -123,6 +131,7 @@ class CommandDesk:
                 stop_level=self._stop_level,
                 stand=self._stand,
                 operator_silence=silence,
+                attended=self._authority.epoch > 0,
                 gait=self._gait,
                 mission_active=self._mission.phase == "active",
                 waypoints=self._mission.waypoints,
@@ -153,8 +162,8 @@ class CommandDesk:
             self._events.clear()
             return events
 
-    def seated_by_safety(self) -> None:
-        """The robot sat down on its own account: standing up again needs a new command."""
+    def withdraw_stand(self) -> None:
+        """Safety makes the robot sit: standing up again needs a new command."""
         with self._lock:
             self._stand = False
             self._mission.pause()
@@ -210,7 +219,7 @@ class CommandDesk:
     def _release_stop(self, _: Command) -> Answer:
         if not self._stop_level:
             return self._refuse("the robot is not stopped")
-        if self._situation.mode != "ESTOP":
+        if not self._situation.settled:
             return self._refuse("the robot is still settling; release the stop when it sits")
         self._stop_level = ""
         return self._accept()

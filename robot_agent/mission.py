@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from math import hypot, isfinite, nan
 
 import numpy as np
-
 from weaver_shared.config.command import CommandLimits
 from weaver_shared.messages import MissionState, Waypoint
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from weaver_shared.messages import SafetyAction
+
 from robot_agent.orders import Orders
 from robot_agent.safety import Verdict
-from weaver_shared.messages import SafetyAction
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,18 +30,8 @@ class ModeMachine:
 
     def step(self, orders: Orders, verdict: Verdict, posture: str) -> Permission:
         seated = posture == "sitting"
-        if verdict.action is SafetyAction.CUT:
-            self._torque_on = False
-            self._fallen = not orders.stop_level
-            return self._permission("ESTOP" if orders.stop_level else "FAULT", settled=True)
-        if orders.stop_level:
-            if seated:
-                self._torque_on = False
-            return self._permission("ESTOP", settled=seated)
-        if self._fallen:
-            # After a fall torque stays off until the operator asks anew; the order that stood is void.
-            self._fallen = orders.stand
-            return self._permission("FAULT")
+        if verdict.action is SafetyAction.CUT or orders.stop_level or self._fallen:
+            return self._stopped(orders, verdict, seated)
         if verdict.action is SafetyAction.SIT or not orders.stand:
             if not seated:
                 return self._permission("SIT")
@@ -54,7 +45,17 @@ class ModeMachine:
         upright = posture in ("standing", "walking")
         return self._permission("WALK" if moving and upright else "STAND", stand=True, walk=upright)
 
-    def _permission(
-        self, mode: str, *, stand: bool = False, walk: bool = False, settled: bool = False
-    ) -> Permission:
+    def _stopped(self, orders: Orders, verdict: Verdict, seated: bool) -> Permission:
+        """Cut, the latched stop, and the time after a fall until the order that stood has been withdrawn."""
+        if verdict.action is SafetyAction.CUT:
+            self._torque_on = False
+            self._fallen = not orders.stop_level
+        elif orders.stop_level:
+            self._torque_on = self._torque_on and not seated
+        else:
+            self._fallen = orders.stand
+        mode = "ESTOP" if orders.stop_level else "FAULT"
+        return self._permission(mode, settled=not self._torque_on)
+
+    def _permission(self, mode: str, *, stand: bool = False, walk: bool = False, settled: bool = False) -> Permission:
         return Permission(mode=mode, torque_on=self._torque_on, stand=stand, walk=walk, settled=settled)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-
 from weaver_shared.messages import Waypoint
 
 
@@ -14,7 +13,8 @@ from weaver_shared.messages import Waypoint
 class Orders:
     stop_level: str  # "", "settle", "cut"
     stand: bool
-    operator_silence: float  # s
+    operator_silence: float  # s since the holder of the lease was last heard; infinite when nobody holds it
+    attended: bool  # some operator has been in control since the start
     gait: str
     mission_active: bool
     waypoints: tuple[Waypoint, ...]
@@ -28,6 +28,7 @@ def idle_orders(gait: str = "tripod") -> Orders:
         stop_level="",
         stand=False,
         operator_silence=float("inf"),
+        attended=False,
         gait=gait,
         mission_active=False,
         waypoints=(),

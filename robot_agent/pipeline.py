@@ -1,7 +1,7 @@
 """The robot's data flow, stage after stage (ICRA'17 Fig. 2). No I/O, no clock, no branch on simulated or real.
 
-    vision loop   pictures, IMU -> odometry -> perception -> mapping -> adaptation
-    walk loop     joints, IMU   -> state    -> navigation -> locomotion -> joint targets, under safety
+vision loop   pictures, IMU -> odometry -> perception -> mapping -> adaptation
+walk loop     joints, IMU   -> state    -> navigation -> locomotion -> joint targets, under safety
 """
 
 from __future__ import annotations
@@ -10,6 +10,19 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from weaver_shared.messages import (
+    AdaptationReport,
+    ImuBatch,
+    MapTile,
+    OdometryEstimate,
+    Proprioception,
+    StereoFrame,
+    TerrainEstimate,
+    Waypoint,
+)
+from weaver_shared.robots import RobotDescription
+from weaver_shared.robots.forward_kinematics import feet_in_body
+from weaver_shared.transforms import Pose
 
 from robot_agent.adaptation import AdaptationController, ParameterOverrides
 from robot_agent.body import JointTargets
@@ -24,19 +37,6 @@ from robot_agent.perception import TerrainPerception
 from robot_agent.safety import SafetySupervisor, Verdict
 from robot_agent.vigilance import Vigilance
 from robot_agent.vision.camera import StereoCalibration
-from weaver_shared.messages import (
-    AdaptationReport,
-    ImuBatch,
-    MapTile,
-    OdometryEstimate,
-    Proprioception,
-    StereoFrame,
-    TerrainEstimate,
-    Waypoint,
-)
-from weaver_shared.robots import RobotDescription
-from weaver_shared.robots.forward_kinematics import feet_in_body
-from weaver_shared.transforms import Pose
 
 REPORT_LIFETIME = 1.0
 """Seconds after which an adaptation report no longer describes the ground under the robot."""
@@ -130,6 +130,11 @@ class WalkPipeline:
     def adapt(self, report: AdaptationReport) -> None:
         """Take the vision loop's newest gait parameters."""
         self._report = report
+
+    @property
+    def odometry_age(self) -> float:
+        """Seconds since the vision loop was last heard."""
+        return self._vigilance.odometry_age()
 
     def step(self, sensed: Proprioception, orders: Orders) -> WalkTick:
         state = self._navigate(sensed)

@@ -24,6 +24,7 @@ class SafetyInputs:
     upright: bool  # off its belly: standing up, standing, walking or lowering
     needs_odometry: bool  # a mission is being followed
     operator_silence: float  # since the holder of the lease was last heard; infinite when nobody holds it
+    attended: bool  # some operator has been in control since the start
     tilt: float  # rad between the body's z axis and the vertical; NaN unknown
     imu_age: float
     odometry_age: float
@@ -52,7 +53,7 @@ class SafetySupervisor:
 
     def step(self, inputs: SafetyInputs, dt: float) -> Verdict:
         findings = list(self._findings(inputs))
-        held = any(action is not SafetyAction.ALLOW for action, _ in findings) and inputs.upright
+        held = any(action is not SafetyAction.ALLOW for action, _ in findings) and inputs.upright and inputs.attended
         self._holding = self._holding + dt if held else 0.0
         if self._holding > self._limits.hold_before_sit:
             findings.append((SafetyAction.SIT, f"held for {self._limits.hold_before_sit:.0f} s"))
@@ -71,8 +72,11 @@ class SafetySupervisor:
         yield from self._senses(inputs)
         yield from self._body(inputs)
         if inputs.upright and inputs.operator_silence > self._limits.operator_silence:
-            yield SafetyAction.HOLD, "no operator is in control" if not isfinite(inputs.operator_silence) else (
-                f"the operator has been silent for {inputs.operator_silence:.1f} s"
+            yield (
+                SafetyAction.HOLD,
+                "no operator is in control"
+                if not isfinite(inputs.operator_silence)
+                else (f"the operator has been silent for {inputs.operator_silence:.1f} s"),
             )
 
     def _stop(self, inputs: SafetyInputs) -> Iterator[tuple[SafetyAction, str]]:
@@ -84,7 +88,7 @@ class SafetySupervisor:
     def _attitude(self, inputs: SafetyInputs) -> Iterator[tuple[SafetyAction, str]]:
         if inputs.imu_age > self._limits.imu_age:
             yield SafetyAction.HOLD, f"the IMU has been silent for {inputs.imu_age:.1f} s"
-        elif not isfinite(inputs.tilt):
+        if not isfinite(inputs.tilt):
             yield SafetyAction.HOLD, "the attitude is unknown"
         elif inputs.tilt > self._limits.tilt_cut:
             yield SafetyAction.CUT, f"tilted by {degrees(inputs.tilt):.0f} degrees: fallen over"

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-
-from robot_agent.orders import Orders
-from robot_agent.odometry import NavigationState
-from robot_agent.safety import SafetyInputs
 from weaver_shared.messages import OdometryEstimate, OdometryQuality, Proprioception
+
+from robot_agent.odometry import NavigationState
+from robot_agent.orders import Orders
+from robot_agent.safety import SafetyInputs
 
 
 class Vigilance:
@@ -34,9 +34,7 @@ class Vigilance:
             return float("inf")
         return (self._now_ns - self._odometry_arrived_ns) * 1e-9
 
-    def inspect(
-        self, sensed: Proprioception, state: NavigationState, orders: Orders, *, upright: bool
-    ) -> SafetyInputs:
+    def inspect(self, sensed: Proprioception, state: NavigationState, orders: Orders, *, upright: bool) -> SafetyInputs:
         now = self._now_ns = sensed.stamp_ns
         if sensed.imu.stamp_ns.size or self._imu_ns is None:
             self._imu_ns = now
@@ -49,6 +47,7 @@ class Vigilance:
             upright=upright,
             needs_odometry=orders.mission_active,
             operator_silence=orders.operator_silence,
+            attended=orders.attended,
             tilt=float(np.arccos(np.clip(-state.gravity_in_body[2], -1.0, 1.0))),
             imu_age=(now - self._imu_ns) * 1e-9,
             odometry_age=self.odometry_age(),

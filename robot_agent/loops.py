@@ -1,0 +1,243 @@
+"""Runs the pipelines: read, step, write, publish, wait. One loop a process; the bus hands over by latest-wins slots."""
+
+from __future__ import annotations
+
+import logging
+import secrets
+import time
+from collections.abc import Callable
+
+import numpy as np
+from weaver_shared import codec, topics
+from weaver_shared.bus import Bus
+from weaver_shared.latest import LatestSlot
+from weaver_shared.messages import (
+    AdaptationReport,
+    Health,
+    ImuBatch,
+    OdometryEstimate,
+    Presence,
+    Proprioception,
+    SafetyAction,
+    StereoFrame,
+    TeleopFrame,
+)
+from weaver_shared.robots import RobotDescription
+from weaver_shared.transforms import Pose, rotation_z, yaw_of
+
+from robot_agent.adaptation import ParameterOverrides
+from robot_agent.body import Body, JointTargets
+from robot_agent.commands import CommandDesk, Situation
+from robot_agent.pipeline import VisionPipeline, VisionTick, WalkPipeline, WalkTick
+from robot_agent.telemetry import Telemetry
+from robot_agent.timing import LoopMeter
+
+logger = logging.getLogger(__name__)
+
+CONTROL_RATE = 100.0
+HEALTH_TICKS = 50
+
+
+class WalkLoop:
+    """Body, safety and locomotion of one robot. `tick()` is one control period; the body decides how long that is."""
+
+    def __init__(
+        self,
+        *,
+        robot_id: str,
+        body: Body,
+        bus: Bus,
+        world: str = "",
+        wall_clock_ns: Callable[[], int] = time.monotonic_ns,
+    ) -> None:
+        self._body = body
+        robot = body.robot
+        overrides = ParameterOverrides()
+        self.desk = CommandDesk(robot=robot, overrides=overrides, wall_clock_ns=wall_clock_ns)
+        self._pipeline = WalkPipeline(robot, overrides, dt=1.0 / CONTROL_RATE)
+        self._odometry: LatestSlot[OdometryEstimate] = LatestSlot()
+        self._report: LatestSlot[AdaptationReport] = LatestSlot()
+        presence = Presence(
+            robot_id=robot_id,
+            session=secrets.token_hex(4),
+            kind=body.kind,
+            robot=robot.name,
+            world=world,
+            schema=codec.SCHEMA_VERSION,
+        )
+        self._telemetry = Telemetry(bus=bus, robot_id=robot_id, robot=robot, presence=presence, rate=CONTROL_RATE)
+        self._meter = LoopMeter("walk", CONTROL_RATE)
+        self._last_estimate: OdometryEstimate | None = None
+        self._ticks = 0
+        bus.subscribe(robot_id, topics.ODOMETRY, lambda _id, _key, message: self._odometry.put(message))
+        bus.subscribe(robot_id, topics.DESIRED_GAIT, lambda _id, _key, message: self._report.put(message))
+        bus.subscribe(robot_id, topics.TELEOP, self._teleoperate)
+        bus.serve(robot_id, self.desk.answer)
+        bus.announce(robot_id, "walk")
+
+    def tick(self) -> tuple[WalkTick, Proprioception]:
+        stamp_ns = self._body.wait_next()
+        self._meter.woke(stamp_ns)
+        sensed = self._body.read()
+        try:
+            tick = self._step(sensed)
+        except BaseException:
+            self._halt(sensed)
+            raise
+        self._body.write(tick.targets)
+        self._after(tick, sensed)
+        return tick, sensed
+
+    def _step(self, sensed: Proprioception) -> WalkTick:
+        if (estimate := self._odometry.take()) is not None:
+            self._last_estimate = estimate
+            self._pipeline.correct(estimate)
+        if (report := self._report.take()) is not None:
+            self._pipeline.adapt(report)
+        return self._pipeline.step(sensed, self.desk.orders())
+
+    def _after(self, tick: WalkTick, sensed: Proprioception) -> None:
+        if tick.follower is not None:
+            self.desk.mission_progress(
+                index=tick.follower.index - 1,
+                cross_track_error=tick.follower.cross_track_error,
+                distance_left=tick.follower.distance_left,
+                lookahead=tick.follower.lookahead_in_world,
+                done=tick.follower.done,
+            )
+        if tick.verdict.action in (SafetyAction.SIT, SafetyAction.CUT):
+            self.desk.withdraw_stand()
+        x, y, _ = tick.state.world_from_body.position
+        self.desk.observe(
+            Situation(
+                stamp_ns=tick.stamp_ns,
+                robot_xy=(float(x), float(y)),
+                mode=tick.permission.mode,
+                settled=tick.permission.settled,
+                stand_blockers=tick.verdict.reasons if tick.permission.mode in ("OFF", "READY", "FAULT") else (),
+            )
+        )
+        self._telemetry.publish(tick, sensed, self.desk)
+        self._ticks += 1
+        if self._ticks % HEALTH_TICKS == 0:
+            age = self._pipeline.odometry_age
+            self._telemetry.publish_health(self._meter.report(tick.stamp_ns), sensed, self._last_estimate, age)
+
+    def _halt(self, sensed: Proprioception) -> None:
+        """Last act after an unexpected error: hold the joints where they are. Never raises."""
+        try:
+            self._body.write(
+                JointTargets(
+                    stamp_ns=sensed.stamp_ns,
+                    position=sensed.joint_position,
+                    torque_limit=np.full(sensed.joint_position.size, np.inf),
+                    torque_on=True,
+                )
+            )
+        except Exception:
+            logger.exception("the body did not take the order to hold")
+
+    def _teleoperate(self, _robot_id: str, _key: str, frame: TeleopFrame) -> None:
+        self.desk.teleoperate(frame)
+
+
+class ImuQueue:
+    """Collects inertial samples from control ticks and hands out those up to a picture's stamp."""
+
+    def __init__(self, capacity: int = 2000) -> None:
+        self._batches: list[ImuBatch] = []
+        self._capacity = capacity
+
+    def add(self, batch: ImuBatch) -> None:
+        if batch.stamp_ns.size:
+            self._batches.append(batch)
+            del self._batches[: -self._capacity]
+
+    def newest_ns(self) -> int:
+        return int(self._batches[-1].stamp_ns[-1]) if self._batches else -1
+
+    def up_to(self, stamp_ns: int) -> ImuBatch:
+        """Remove and return all samples not later than `stamp_ns`."""
+        joined = ImuBatch.join(self._batches)
+        split = int(np.searchsorted(joined.stamp_ns, stamp_ns, side="right"))
+        rest = ImuBatch(
+            stamp_ns=joined.stamp_ns[split:],
+            angular_velocity_in_imu=joined.angular_velocity_in_imu[split:],
+            specific_force_in_imu=joined.specific_force_in_imu[split:],
+        )
+        self._batches = [rest] if rest.stamp_ns.size else []
+        return ImuBatch(
+            stamp_ns=joined.stamp_ns[:split],
+            angular_velocity_in_imu=joined.angular_velocity_in_imu[:split],
+            specific_force_in_imu=joined.specific_force_in_imu[:split],
+        )
+
+
+class VisionLoop:
+    """Odometry, perception, map and adaptation of one robot; begins where the walk loop says the robot is."""
+
+    def __init__(self, *, robot_id: str, robot: RobotDescription, bus: Bus) -> None:
+        self._robot_id = robot_id
+        self._robot = robot
+        self._bus = bus
+        self._pipeline: VisionPipeline | None = None
+        self._imu = ImuQueue()
+        self._meter = LoopMeter("vision", robot.camera.rate)
+        self._frames = 0
+
+    def feel(self, sensed: Proprioception) -> None:
+        self._imu.add(sensed.imu)
+
+    def imu_covers(self, stamp_ns: int) -> bool:
+        return self._imu.newest_ns() >= stamp_ns
+
+    def begin(self, world_from_body: Pose) -> None:
+        """Start, or start again, with the robot at this position and heading."""
+        upright = Pose(rotation=rotation_z(yaw_of(world_from_body.rotation)), position=world_from_body.position)
+        self._pipeline = VisionPipeline(self._robot, upright)
+
+    @property
+    def begun(self) -> bool:
+        return self._pipeline is not None
+
+    def step(self, frame: StereoFrame) -> VisionTick:
+        """Process one pair whose IMU samples have arrived, and publish what came of it."""
+        tick = self.process(frame, self.take_imu(frame.stamp_ns))
+        self.publish(tick)
+        return tick
+
+    def take_imu(self, stamp_ns: int) -> ImuBatch:
+        return self._imu.up_to(stamp_ns)
+
+    def process(self, frame: StereoFrame, imu: ImuBatch) -> VisionTick:
+        """Process one pair without publishing: safe on another thread while this one goes on feeling."""
+        if self._pipeline is None:
+            raise RuntimeError("begin() comes before process()")
+        self._meter.woke(frame.stamp_ns)
+        return self._pipeline.step(frame, imu)
+
+    def publish(self, tick: VisionTick) -> None:
+        publish = self._bus.publish
+        publish(self._robot_id, topics.ODOMETRY, tick.odometry)
+        if tick.terrain is not None:
+            publish(self._robot_id, topics.TERRAIN, tick.terrain)
+        if tick.report is not None:
+            publish(self._robot_id, topics.DESIRED_GAIT, tick.report)
+        for tile in tick.tiles:
+            publish(self._robot_id, topics.MAP_TILE, tile, i=tile.i, j=tile.j)
+        self._frames += 1
+        if self._frames % 10 == 0:
+            self._publish_health(tick.odometry)
+
+    def _publish_health(self, odometry: OdometryEstimate) -> None:
+        timing = self._meter.report(odometry.stamp_ns)
+        health = Health(
+            stamp_ns=odometry.stamp_ns,
+            timings=(timing,),
+            odometry_quality=odometry.quality.value,
+            odometry_reason=odometry.reason,
+            odometry_age=0.0,
+            tracked_features=odometry.tracked_features,
+            max_temperature=float("nan"),
+        )
+        self._bus.publish(self._robot_id, topics.HEALTH, health, process="vision")

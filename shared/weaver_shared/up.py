@@ -1,0 +1,115 @@
+"""`weaver up`: a simulated robot and the console, ready to be driven from a browser."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import signal
+import socket
+import sys
+import time
+import types
+import urllib.request
+import webbrowser
+
+from weaver_shared.bus import free_port
+from weaver_shared.errors import ConfigurationError, ResourceError
+from weaver_shared.supervisor import Supervisor
+from weaver_shared.topics import robot_key
+
+HOST = "127.0.0.1"
+RENDEZVOUS = 7447
+"""Where the console waits for robots, so that further ones started on this machine appear by themselves."""
+
+
+def main(arguments: list[str]) -> int:
+    options = _parser().parse_args(arguments)
+    robot_key(options.robot_id, "")
+    if options.robot != "sim":
+        raise ConfigurationError(f"robot {options.robot!r} can not be started; `sim` is what this version starts")
+    if options.console:
+        _require_free(options.port)
+    rendezvous = f"tcp/{HOST}:{_port_or_free(RENDEZVOUS)}" if options.console else options.connect
+    robot = f"tcp/{HOST}:{free_port()}"
+    supervisor = Supervisor(lambda text: print(f"weaver up: {text}", file=sys.stderr, flush=True))
+    signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        _start(supervisor, options, rendezvous=rendezvous, robot=robot)
+        if options.console:
+            _announce(supervisor, options)
+        while True:
+            supervisor.watch()
+            time.sleep(0.1)
+    except KeyboardInterrupt:
+        return 0
+    finally:
+        supervisor.close()
+
+
+def _start(supervisor: Supervisor, options: argparse.Namespace, *, rendezvous: str, robot: str) -> None:
+    known = ["--robot-id", options.robot_id, "--connect", f"{rendezvous},{robot}"]
+    world = ["--world", options.world, "--seed", str(options.seed)]
+    name = ["--robot", options.description]
+    sim = ["--robot-id", options.robot_id, "--connect", rendezvous, "--listen", robot, "--stand"]
+    supervisor.add("the robot", ["weaver_shared.command_line", "sim", *sim, *world, *name], nice=-10)
+    supervisor.add("the renderer", ["sim_agent.render_process", *known, *world, *name], nice=-5)
+    supervisor.add("vision", ["weaver_shared.command_line", "robot", "--role", "vision", *known, *name], nice=-5)
+    if options.console:
+        console = ["--host", HOST, "--port", str(options.port), "--listen", rendezvous, "--connect", robot]
+        supervisor.add("the console", ["weaver_shared.command_line", "console", *console])
+    print(json.dumps(supervisor.pids), file=sys.stderr, flush=True)
+
+
+def _announce(supervisor: Supervisor, options: argparse.Namespace, timeout: float = 60.0) -> None:
+    address = f"http://{HOST}:{options.port}/"
+    deadline = time.monotonic() + timeout
+    while not _answers(address):
+        supervisor.watch()
+        if time.monotonic() > deadline:
+            raise ResourceError(f"the console did not answer on {address} within {timeout:.0f} s")
+        time.sleep(0.1)
+    print(f"Weaver Console is on {address}  (end with Ctrl-C)", flush=True)
+    if options.browser:
+        webbrowser.open(address)
+
+
+def _answers(address: str) -> bool:
+    with contextlib.suppress(OSError), urllib.request.urlopen(f"{address}api/health", timeout=1.0) as reply:
+        return bool(reply.status == 200)
+    return False
+
+
+def _require_free(port: int) -> None:
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((HOST, port))
+        except OSError as error:
+            raise ResourceError(f"port {port} is in use; choose another with --port") from error
+
+
+def _port_or_free(port: int) -> int:
+    try:
+        _require_free(port)
+    except ResourceError:
+        return free_port()
+    return port
+
+
+def _interrupt(_signal: int, _frame: types.FrameType | None) -> None:
+    raise KeyboardInterrupt
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="weaver up", description=__doc__)
+    parser.add_argument("--robot", default="sim", help="which body to start: sim")
+    parser.add_argument("--description", default="weaver", help="robot description: a shipped name or a TOML file")
+    parser.add_argument("--robot-id", default="sim-1", help="name on the bus, unique per robot")
+    parser.add_argument("--world", default="testbed", help="flat, testbed, outdoor or stairs")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the world and of all sensor noise")
+    parser.add_argument("--port", type=int, default=8080, help="TCP port of the page")
+    parser.add_argument("--no-browser", dest="browser", action="store_false", help="do not open a browser")
+    parser.add_argument("--no-console", dest="console", action="store_false", help="start the robot alone")
+    parser.add_argument("--connect", default=f"tcp/{HOST}:{RENDEZVOUS}", help="console to join with --no-console")
+    return parser

@@ -1,0 +1,127 @@
+"""`weaver walk`: one mission of the simulated robot in lock step, headless, with its figures."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+import time
+from typing import Any
+
+from tqdm import tqdm
+from weaver_shared.config.adaptation import AdaptationConfig
+from weaver_shared.errors import InputError
+from weaver_shared.messages import Answer, CommandName, Waypoint
+from weaver_shared.robots import load_robot
+
+from robot_agent.adaptation import safe_gait
+from robot_agent.loops import CONTROL_RATE
+from sim_agent.lock_step import LockStep
+from sim_agent.run_log import RunLog
+from sim_agent.worlds import make_world
+
+STAND_SECONDS = 30.0
+
+
+def main(arguments: list[str]) -> int:
+    options = _parser().parse_args(arguments)
+    figures = walk(options)
+    if options.json:
+        print(json.dumps(_finite(figures)))
+    else:
+        _print(figures)
+    return 0 if figures["reached"] else 1
+
+
+def walk(options: argparse.Namespace, *, tell_truth: bool = True) -> dict[str, Any]:
+    """Stand up, walk to the goal, and report. Raises InputError on a goal that is refused."""
+    goal = _goal(options.goal)
+    robot = load_robot(options.robot_description)
+    world = make_world(options.world, options.seed)
+    run = LockStep(robot, world, options.seed, tell_truth=tell_truth)
+    log = RunLog(world=world, mass=robot.mass, dt=1.0 / CONTROL_RATE)
+    started = time.monotonic()
+    try:
+        reached = _mission(run, log, goal, options)
+    finally:
+        run.close()
+    simulated = run.clock.now_ns() * 1e-9
+    wall = time.monotonic() - started
+    return {"reached": reached, "digest": log.digest, "real_time_factor": simulated / wall, **log.figures()}
+
+
+def _mission(run: LockStep, log: RunLog, goal: Waypoint, options: argparse.Namespace) -> bool:
+    run.step()
+    _must(run.command(CommandName.TAKE_CONTROL))
+    _must(run.command(CommandName.STAND))
+    if options.adapt == "off":
+        _fix_parameters(run)
+    _must(run.command(CommandName.SET_GAIT, name=options.gait))
+    _must(run.command(CommandName.SET_MISSION, waypoints=(goal,)))
+    for _ in range(round(STAND_SECONDS * CONTROL_RATE)):
+        if run.step().walk.walk.posture == "standing":
+            break
+    _must(run.command(CommandName.START_MISSION))
+    with tqdm(total=0, unit=" s", disable=not sys.stderr.isatty(), bar_format="{desc}") as bar:
+        for tick in range(round(options.timeout * CONTROL_RATE)):
+            moment = run.step()
+            log.add(moment)
+            if tick % 100 == 0:
+                x, y, _ = moment.walk.state.world_from_body.position
+                bar.set_description_str(f"{tick / CONTROL_RATE:.0f} s, at {x:.2f}, {y:.2f} m")
+            phase = run.walk.desk.mission(moment.walk.stamp_ns).phase
+            if phase == "done":
+                return True
+            if moment.walk.permission.mode == "FAULT":
+                return False
+    return False
+
+
+def _fix_parameters(run: LockStep) -> None:
+    """The paper's non-adaptive set: constant, tuned to the roughest part."""
+    for name, value in safe_gait(AdaptationConfig()).items():
+        _must(run.command(CommandName.SET_OVERRIDE, name=name, value=value))
+
+
+def _must(answer: Answer) -> None:
+    if not answer.accepted:
+        raise InputError(f"the robot refused: {answer.reason}")
+
+
+def _goal(text: str) -> Waypoint:
+    try:
+        x, y = (float(part) for part in text.split(","))
+    except ValueError:
+        raise InputError(f"goal {text!r} is not a place; give x,y in metres such as 5,0") from None
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise InputError(f"goal {text!r} is not a place; x and y must be finite")
+    return Waypoint(x=x, y=y)
+
+
+def _finite(value: Any) -> Any:
+    """JSON has no NaN: what is not known becomes null."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+def _print(figures: dict[str, Any]) -> None:
+    for key, value in figures.items():
+        print(f"{key}: {json.dumps(_finite(value))}")
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="weaver walk", description=__doc__)
+    parser.add_argument("--robot", choices=("sim",), default="sim", help="which body walks")
+    parser.add_argument("--robot-description", default="weaver", help="a shipped robot or a TOML file")
+    parser.add_argument("--world", default="testbed", help="flat, testbed, outdoor or stairs")
+    parser.add_argument("--goal", default="5,0", help="x,y in m from the start")
+    parser.add_argument("--adapt", choices=("on", "off"), default="on", help="off: constant, for rough ground")
+    parser.add_argument("--gait", default="tripod", help="gait of the robot description")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the world and of all sensor noise")
+    parser.add_argument("--timeout", type=float, default=600.0, help="simulated seconds before giving up")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    return parser

@@ -1,0 +1,123 @@
+"""One simulated robot in one process on the simulated clock: deterministic bit for bit and as fast as it goes.
+
+The same loops run as in real time, joined by an in-memory bus. A picture's results reach the walk loop one camera
+period later, as they would from a process of its own; that leaves a second core free to work on them meanwhile.
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+
+import cv2
+from weaver_shared import topics
+from weaver_shared.bus import MemoryBus
+from weaver_shared.clock import SimulatedClock
+from weaver_shared.messages import Answer, Command, CommandName, Proprioception, TruthState, Waypoint
+from weaver_shared.robots import RobotDescription
+
+from robot_agent.loops import CONTROL_RATE, VisionLoop, WalkLoop
+from robot_agent.pipeline import VisionTick, WalkTick
+from sim_agent.body import SimulatedBody
+from sim_agent.rendering import StereoRenderer
+from sim_agent.worlds import World
+
+OPERATOR = "lock step"
+RETAIN_TICKS = 50
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Moment:
+    """What one control tick left behind; truth is for evaluation alone."""
+
+    walk: WalkTick
+    sensed: Proprioception
+    vision: VisionTick | None
+    truth: TruthState | None
+
+
+class LockStep:
+    """Steps body, walk loop, renderer and vision loop in a fixed order."""
+
+    def __init__(
+        self, robot: RobotDescription, world: World, seed: int, *, robot_id: str = "sim-1", tell_truth: bool = True
+    ) -> None:
+        cv2.setNumThreads(1)
+        self.clock = SimulatedClock()
+        self.bus = MemoryBus()
+        self._robot_id = robot_id
+        self._tell_truth = tell_truth
+        self._body = SimulatedBody(robot, world, seed)
+        self._renderer = StereoRenderer(robot, world, seed)
+        self.walk = WalkLoop(
+            robot_id=robot_id, body=self._body, bus=self.bus, world=world.name, wall_clock_ns=self.clock.now_ns
+        )
+        self._vision = VisionLoop(robot_id=robot_id, robot=robot, bus=self.bus)
+        self._camera_ticks = round(CONTROL_RATE / robot.camera.rate)
+        self._workers = ThreadPoolExecutor(1)
+        self._seeing: Future[VisionTick] | None = None
+        self._ticks = 0
+        self._sequence = 0
+        self._epoch = 0
+
+    def step(self) -> Moment:
+        """One control tick, and the camera's and vision's turn when it is theirs."""
+        self.clock.forward(seconds=1.0 / CONTROL_RATE)
+        if self._epoch and self._ticks % RETAIN_TICKS == 0:
+            self.command(CommandName.RETAIN_CONTROL)
+        walk, sensed = self.walk.tick()
+        if not self._vision.begun:
+            self._vision.begin(walk.state.world_from_body)
+        seen = None
+        camera_due = self._ticks % self._camera_ticks == 0
+        if camera_due:
+            seen = self._collect()
+        self._vision.feel(sensed)
+        if camera_due:
+            frame = self._renderer.render(self._body.scene_state(), self._ticks // self._camera_ticks)
+            imu = self._vision.take_imu(frame.stamp_ns)
+            self._seeing = self._workers.submit(self._vision.process, frame, imu)
+        self._ticks += 1
+        truth = self._body.truth() if self._tell_truth else None
+        if truth is not None:
+            self.bus.publish(self._robot_id, topics.TRUTH, truth)
+        return Moment(walk=walk, sensed=sensed, vision=seen, truth=truth)
+
+    def command(
+        self,
+        command: CommandName,
+        *,
+        name: str = "",
+        value: float = 0.0,
+        waypoints: tuple[Waypoint, ...] = (),
+    ) -> Answer:
+        """Send a command as the one operator there is."""
+        self._sequence += 1
+        answer = self.bus.request(
+            self._robot_id,
+            Command(
+                command=command,
+                operator=OPERATOR,
+                lease_epoch=self._epoch,
+                sequence=self._sequence,
+                name=name,
+                value=value,
+                waypoints=waypoints,
+            ),
+        )
+        self._epoch = answer.lease_epoch
+        return answer
+
+    def close(self) -> None:
+        self._workers.shutdown()
+        self._renderer.close()
+        self._body.close()
+
+    def _collect(self) -> VisionTick | None:
+        """The results of the previous picture, published as they arrive."""
+        if self._seeing is None:
+            return None
+        tick = self._seeing.result()
+        self._seeing = None
+        self._vision.publish(tick)
+        return tick
