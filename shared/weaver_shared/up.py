@@ -58,7 +58,7 @@ def _start(supervisor: Supervisor, options: argparse.Namespace, *, rendezvous: s
     if options.console:
         console = ["--host", HOST, "--port", str(options.port), "--listen", rendezvous, "--connect", robot]
         supervisor.add("the console", ["weaver_shared.command_line", "console", *console])
-    print(json.dumps(supervisor.pids), file=sys.stderr, flush=True)
+    print(json.dumps({"bus": rendezvous, "pids": supervisor.pids}), file=sys.stderr, flush=True)
 
 
 def _announce(supervisor: Supervisor, options: argparse.Namespace, timeout: float = 60.0) -> None:
