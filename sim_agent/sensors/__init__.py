@@ -1,0 +1,5 @@
+"""Sensors that feel rather than see."""
+
+from sim_agent.sensors.inertial import InertialSensor
+
+__all__ = ["InertialSensor"]
