@@ -5,6 +5,7 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+
 from weaver_shared.messages import Proprioception, StereoFrame
 from weaver_shared.robots import RobotDescription
 

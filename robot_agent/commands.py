@@ -13,6 +13,11 @@ from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
+
+from robot_agent.adaptation import ParameterOverrides
+from robot_agent.authority import Authority
+from robot_agent.mission import Mission
+from robot_agent.orders import Orders
 from weaver_shared.config.command import CommandLimits
 from weaver_shared.errors import WeaverError
 from weaver_shared.messages import (
@@ -26,11 +31,6 @@ from weaver_shared.messages import (
     TeleopFrame,
 )
 from weaver_shared.robots import RobotDescription
-
-from robot_agent.adaptation import ParameterOverrides
-from robot_agent.authority import Authority
-from robot_agent.mission import Mission
-from robot_agent.orders import Orders
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from weaver_shared.robots import RobotDescription
 
 from robot_agent.body import JointTargets
+from weaver_shared.robots import RobotDescription
 
 
 class JointGate:

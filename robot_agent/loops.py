@@ -8,6 +8,13 @@ import time
 from collections.abc import Callable
 
 import numpy as np
+
+from robot_agent.adaptation import ParameterOverrides
+from robot_agent.body import Body, JointTargets
+from robot_agent.commands import CommandDesk, Situation
+from robot_agent.pipeline import VisionPipeline, VisionTick, WalkPipeline, WalkTick
+from robot_agent.telemetry import Telemetry
+from robot_agent.timing import LoopMeter
 from weaver_shared import codec, topics
 from weaver_shared.bus import Bus
 from weaver_shared.latest import LatestSlot
@@ -24,13 +31,6 @@ from weaver_shared.messages import (
 )
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import Pose, rotation_z, yaw_of
-
-from robot_agent.adaptation import ParameterOverrides
-from robot_agent.body import Body, JointTargets
-from robot_agent.commands import CommandDesk, Situation
-from robot_agent.pipeline import VisionPipeline, VisionTick, WalkPipeline, WalkTick
-from robot_agent.telemetry import Telemetry
-from robot_agent.timing import LoopMeter
 
 logger = logging.getLogger(__name__)
 

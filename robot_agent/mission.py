@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from math import hypot, isfinite, nan
 
 import numpy as np
+
 from weaver_shared.config.command import CommandLimits
 from weaver_shared.messages import MissionState, Waypoint
 
@@ -36,7 +37,7 @@ class Mission:
                     f"waypoint {number} is {distance:.0f} m from the robot; the farthest allowed is "
                     f"{self._limits.waypoint_reach:.0f} m"
                 )
-        if self.phase == "active" and tuple(waypoints[: self._next]) == self.waypoints[: self._next]:
+        if waypoints and self.phase == "active" and tuple(waypoints[: self._next]) == self.waypoints[: self._next]:
             self.waypoints = tuple(waypoints)
             if self._next >= len(self.waypoints):
                 self.finish()

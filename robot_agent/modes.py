@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from weaver_shared.messages import SafetyAction
-
 from robot_agent.orders import Orders
 from robot_agent.safety import Verdict
+from weaver_shared.messages import SafetyAction
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

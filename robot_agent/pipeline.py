@@ -10,19 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from weaver_shared.messages import (
-    AdaptationReport,
-    ImuBatch,
-    MapTile,
-    OdometryEstimate,
-    Proprioception,
-    StereoFrame,
-    TerrainEstimate,
-    Waypoint,
-)
-from weaver_shared.robots import RobotDescription
-from weaver_shared.robots.forward_kinematics import feet_in_body
-from weaver_shared.transforms import Pose
 
 from robot_agent.adaptation import AdaptationController, ParameterOverrides
 from robot_agent.body import JointTargets
@@ -37,6 +24,19 @@ from robot_agent.perception import TerrainPerception
 from robot_agent.safety import SafetySupervisor, Verdict
 from robot_agent.vigilance import Vigilance
 from robot_agent.vision.camera import StereoCalibration
+from weaver_shared.messages import (
+    AdaptationReport,
+    ImuBatch,
+    MapTile,
+    OdometryEstimate,
+    Proprioception,
+    StereoFrame,
+    TerrainEstimate,
+    Waypoint,
+)
+from weaver_shared.robots import RobotDescription
+from weaver_shared.robots.forward_kinematics import feet_in_body
+from weaver_shared.transforms import Pose
 
 REPORT_LIFETIME = 1.0
 """Seconds after which an adaptation report no longer describes the ground under the robot."""

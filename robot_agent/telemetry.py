@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections import deque
 
 import numpy as np
+
+from robot_agent.commands import CommandDesk
+from robot_agent.pipeline import WalkTick
 from weaver_shared import topics
 from weaver_shared.bus import Bus
 from weaver_shared.frames import GRAVITY
@@ -25,9 +28,6 @@ from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import feet_in_body
 from weaver_shared.topics import Topic
 from weaver_shared.transforms import rpy_from_rotation
-
-from robot_agent.commands import CommandDesk
-from robot_agent.pipeline import WalkTick
 
 BATTERY_EMPTY, BATTERY_FULL = 21.0, 29.4
 """Volts of a 7-cell pack at 3.0 and 4.2 V a cell."""

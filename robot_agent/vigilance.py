@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from weaver_shared.messages import OdometryEstimate, OdometryQuality, Proprioception
 
 from robot_agent.odometry import NavigationState
 from robot_agent.orders import Orders
 from robot_agent.safety import SafetyInputs
+from weaver_shared.messages import OdometryEstimate, OdometryQuality, Proprioception
 
 
 class Vigilance:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import threading
 
+from robot_agent.loops import VisionLoop
 from weaver_shared import topics
 from weaver_shared.bus import Bus
 from weaver_shared.latest import LatestSlot
 from weaver_shared.messages import Proprioception, RobotState, StereoFrame
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import Pose
-
-from robot_agent.loops import VisionLoop
 
 PICTURE_WAIT = 0.2
 IMU_WAIT = 0.1

@@ -4,10 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from weaver_shared.errors import ConfigurationError
-from weaver_shared.messages import Proprioception, SceneState, TruthState
-from weaver_shared.robots import RobotDescription
-from weaver_shared.transforms import Pose
 
 from robot_agent.body import JointTargets
 from sim_agent.model import sitting_joints
@@ -15,6 +11,10 @@ from sim_agent.physics import RATE, ContactSensor, Engine
 from sim_agent.sensors import InertialSensor
 from sim_agent.servos import Battery, ServoBank, encoder_position, encoder_velocity
 from sim_agent.worlds import World
+from weaver_shared.errors import ConfigurationError
+from weaver_shared.messages import Proprioception, SceneState, TruthState
+from weaver_shared.robots import RobotDescription
+from weaver_shared.transforms import Pose
 
 Array = NDArray[np.float64]
 

@@ -10,17 +10,17 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 
 import cv2
-from weaver_shared import topics
-from weaver_shared.bus import MemoryBus
-from weaver_shared.clock import SimulatedClock
-from weaver_shared.messages import Answer, Command, CommandName, Proprioception, TruthState, Waypoint
-from weaver_shared.robots import RobotDescription
 
 from robot_agent.loops import CONTROL_RATE, VisionLoop, WalkLoop
 from robot_agent.pipeline import VisionTick, WalkTick
 from sim_agent.body import SimulatedBody
 from sim_agent.rendering import StereoRenderer
 from sim_agent.worlds import World
+from weaver_shared import topics
+from weaver_shared.bus import MemoryBus
+from weaver_shared.clock import SimulatedClock
+from weaver_shared.messages import Answer, Command, CommandName, Proprioception, TruthState, Waypoint
+from weaver_shared.robots import RobotDescription
 
 OPERATOR = "lock step"
 RETAIN_TICKS = 50

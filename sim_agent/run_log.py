@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from robot_agent.evaluation.trajectory import trajectory_metrics
-from weaver_shared.messages import AdaptationReport
 
 from robot_agent.evaluation.energy import cost_of_transport
 from sim_agent.lock_step import Moment
 from sim_agent.worlds import World
+from weaver_shared.messages import AdaptationReport
 
 Array = NDArray[np.float64]
 

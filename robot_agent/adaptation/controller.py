@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Protocol
+
+import numpy as np
 
 from robot_agent.adaptation.polynomials import PARAMETERS, gait_for, safe_gait
 from weaver_shared.config.adaptation import AdaptationConfig
@@ -63,10 +66,36 @@ class AdaptationController:
             overridden=(),
         )
 
+    def unknown(self, stamp_ns: int, dt: float) -> AdaptationReport:
+        """Parameters on their way to the safe gait, for when nothing is known of the ground at all."""
+        return self.step(_Unknown(), _unseen(stamp_ns), stamp_ns, dt)
+
     def _confidence(self, worst: WorstGround) -> float:
         sigma = max(worst.roughness_sigma, worst.step_height_sigma)
         known = 0.0 if math.isnan(sigma) else max(0.0, 1.0 - sigma / self._config.full_sigma)
         return min(1.0, self._health) * known
+
+
+@dataclass(frozen=True, slots=True)
+class _Unknown:
+    roughness: float = math.nan
+    roughness_sigma: float = math.nan
+    step_height: float = math.nan
+    step_height_sigma: float = math.nan
+
+
+def _unseen(stamp_ns: int) -> TerrainEstimate:
+    return TerrainEstimate(
+        stamp_ns=stamp_ns,
+        roughness=math.nan,
+        roughness_sigma=math.nan,
+        step_height=math.nan,
+        step_height_sigma=math.nan,
+        features=np.full(7, np.nan),
+        plane_normal_in_world=np.array([0.0, 0.0, 1.0]),
+        health=0.0,
+        reason="nothing was seen",
+    )
 
 
 def rate_limited(value: float, wanted: float, largest_step: float) -> float:

@@ -7,11 +7,11 @@ import signal
 import threading
 
 import cv2
+
+from robot_agent.vision_process import VisionProcess
 from weaver_shared.bus import ZenohBus
 from weaver_shared.errors import ResourceError
 from weaver_shared.robots import load_robot
-
-from robot_agent.vision_process import VisionProcess
 
 
 def main(arguments: list[str]) -> int:

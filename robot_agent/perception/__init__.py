@@ -1,1 +1,7 @@
-"""From a stereo pair to the shape of the ground ahead (ICRA'17 III-D)."""
+"""Terrain from stereo pictures: matching, height grid, ground plane, features (ICRA'17 III-D)."""
+
+from robot_agent.perception.disparity_grid import HeightGrid
+from robot_agent.perception.terrain import PerceivedTerrain, TerrainPerception
+from robot_agent.perception.warm_up import warm_up
+
+__all__ = ["HeightGrid", "PerceivedTerrain", "TerrainPerception", "warm_up"]

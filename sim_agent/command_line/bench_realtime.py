@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 from tqdm import tqdm
+
 from weaver_shared import topics
 from weaver_shared.bus import ZenohBus, free_port
 from weaver_shared.errors import ResourceError

@@ -6,16 +6,15 @@ import argparse
 import signal
 import threading
 
+from robot_agent.loops import CONTROL_RATE, WalkLoop
+from sim_agent.body import SimulatedBody
+from sim_agent.realtime import Pacer, run_paced
+from sim_agent.worlds import make_world
 from weaver_shared import topics
 from weaver_shared.bus import ZenohBus
 from weaver_shared.clock import MonotonicClock
 from weaver_shared.errors import ResourceError
 from weaver_shared.robots import load_robot
-
-from robot_agent.loops import CONTROL_RATE, WalkLoop
-from sim_agent.body import SimulatedBody
-from sim_agent.realtime import Pacer, run_paced
-from sim_agent.worlds import make_world
 
 JOIN_SECONDS = 1.0
 """How long to look for another robot of the same id before taking the name."""

@@ -10,16 +10,16 @@ import time
 from typing import Any
 
 from tqdm import tqdm
-from weaver_shared.config.adaptation import AdaptationConfig
-from weaver_shared.errors import InputError
-from weaver_shared.messages import Answer, CommandName, Waypoint
-from weaver_shared.robots import load_robot
 
 from robot_agent.adaptation import safe_gait
 from robot_agent.loops import CONTROL_RATE
 from sim_agent.lock_step import LockStep
 from sim_agent.run_log import RunLog
 from sim_agent.worlds import make_world
+from weaver_shared.config.adaptation import AdaptationConfig
+from weaver_shared.errors import InputError
+from weaver_shared.messages import Answer, CommandName, Waypoint
+from weaver_shared.robots import load_robot
 
 STAND_SECONDS = 30.0
 

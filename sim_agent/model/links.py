@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
 from weaver_shared.robots import RobotDescription
 
 Array = NDArray[np.float64]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+
 from weaver_shared.errors import ConfigurationError
 from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import feet_in_body

@@ -6,6 +6,7 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import rotation_z, rpy_from_rotation
 

@@ -7,14 +7,14 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from weaver_shared.frames import GRAVITY
-from weaver_shared.robots import RobotDescription
-from weaver_shared.transforms import Pose, rotation_z
 
 from sim_agent.model import leg_links, robot_urdf
 from sim_agent.physics.ground import load_ground
 from sim_agent.physics.quiet import quiet
 from sim_agent.worlds import World
+from weaver_shared.frames import GRAVITY
+from weaver_shared.robots import RobotDescription
+from weaver_shared.transforms import Pose, rotation_z
 
 with quiet():
     import pybullet

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+
 from weaver_shared.frames import GRAVITY
 from weaver_shared.messages import ImuBatch
 from weaver_shared.robots.description import Imu

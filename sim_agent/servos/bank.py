@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from weaver_shared.robots import RobotDescription
 
 from robot_agent.body import JointTargets
 from sim_agent.servos.motor import RAD_PER_TICK, servo_torque
+from weaver_shared.robots import RobotDescription
 
 Array = NDArray[np.float64]
 

@@ -1,6 +1,7 @@
 """The battery behind the converters: charge, voltage under load and current."""
 
 import numpy as np
+
 from weaver_shared.robots.description import Power
 
 CELL_NOMINAL = 3.7  # V

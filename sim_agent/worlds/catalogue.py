@@ -2,13 +2,12 @@
 
 from collections.abc import Callable
 
-from weaver_shared.errors import ConfigurationError
-
 from sim_agent.worlds.flat import flat
 from sim_agent.worlds.outdoor import outdoor
 from sim_agent.worlds.scene import World
 from sim_agent.worlds.stairs import stairs
 from sim_agent.worlds.testbed import paper_testbed
+from weaver_shared.errors import ConfigurationError
 
 _WORLDS: dict[str, Callable[[int], World]] = {
     "flat": flat,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from weaver_shared.transforms import rotation_from_rpy
 
 from sim_agent.worlds.scene import Box, Heightfield, Plane, World
+from weaver_shared.transforms import rotation_from_rpy
 
 Array = NDArray[np.float64]
 

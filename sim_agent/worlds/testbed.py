@@ -11,11 +11,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from weaver_shared.robots import RobotDescription, load_robot
-from weaver_shared.transforms import rotation_y
 
 from sim_agent.worlds.block_field import block_field, smooth_random_heights
 from sim_agent.worlds.scene import Box, Plane, Segment, World
+from weaver_shared.robots import RobotDescription, load_robot
+from weaver_shared.transforms import rotation_y
 
 BEHIND_START = 0.5  # m
 LENGTH_A = 2.93  # m (paper)

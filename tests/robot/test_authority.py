@@ -2,9 +2,8 @@
 
 from math import inf
 
-from weaver_shared.messages import Command, CommandName
-
 from robot_agent.authority import Authority
+from weaver_shared.messages import Command, CommandName
 
 SECOND = 1_000_000_000
 

@@ -3,12 +3,12 @@
 from math import inf, nan
 
 import pytest
-from weaver_shared.clock import SimulatedClock
-from weaver_shared.messages import Answer, Command, CommandName, TeleopFrame, Waypoint
-from weaver_shared.robots import load_robot
 
 from robot_agent.adaptation import ParameterOverrides
 from robot_agent.commands import CommandDesk, Situation
+from weaver_shared.clock import SimulatedClock
+from weaver_shared.messages import Answer, Command, CommandName, TeleopFrame, Waypoint
+from weaver_shared.robots import load_robot
 
 
 class Operator:

@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 
 from robot_agent.modes import ModeMachine, Permission
-from robot_agent.orders import Orders, idle_orders
+from robot_agent.orders import idle_orders
 from robot_agent.safety import Verdict
 from weaver_shared.messages import SafetyAction
 

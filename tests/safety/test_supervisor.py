@@ -6,10 +6,10 @@ from math import inf, nan, radians
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from weaver_shared.config.safety import SafetyLimits
-from weaver_shared.messages import SafetyAction
 
 from robot_agent.safety import SEVERITY, SafetyInputs, SafetySupervisor
+from weaver_shared.config.safety import SafetyLimits
+from weaver_shared.messages import SafetyAction
 
 HEALTHY = SafetyInputs(
     stop_level="",

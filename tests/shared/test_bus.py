@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 import zenoh
+
 from weaver_shared import topics
 from weaver_shared.bus import Bus, MemoryBus, ZenohBus, free_port
 from weaver_shared.errors import ConfigurationError, ResourceError

@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from weaver_shared.clock import MonotonicClock, SimulatedClock
 from weaver_shared.rate import RateKeeper
 

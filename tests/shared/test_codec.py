@@ -12,6 +12,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
+
 from weaver_shared import codec
 from weaver_shared.errors import MessageError
 from weaver_shared.messages import Answer, Event, Heartbeat, ImuBatch, MapTile, MissionState, Severity, Waypoint

@@ -3,6 +3,7 @@
 from importlib.metadata import EntryPoint
 
 import pytest
+
 from weaver_shared import command_line
 from weaver_shared.errors import InputError
 

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
+
 from weaver_shared.robots import RobotDescription, load_robot
 from weaver_shared.robots.forward_kinematics import feet_in_body, joint_frames_in_body
 from weaver_shared.transforms import rotation_x, rotation_z

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+
 from weaver_shared.errors import ConfigurationError
 from weaver_shared.robots import RobotDescription, load_robot, robot_names
 

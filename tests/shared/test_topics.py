@@ -3,6 +3,7 @@
 import itertools
 
 import pytest
+
 from weaver_shared import codec, topics
 from weaver_shared.errors import ConfigurationError
 from weaver_shared.messages import Answer, Command, Waypoint

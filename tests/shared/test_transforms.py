@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
+
 from weaver_shared.transforms import (
     Pose,
     rotation_exp,
@@ -57,7 +58,7 @@ def test_a_pose_keeps_distances_and_maps_many_points_as_one_by_one(a: Pose, poin
     assert_allclose(
         np.linalg.norm(moved[1:] - moved[:-1], axis=1), np.linalg.norm(points[1:] - points[:-1], axis=1), atol=1e-9
     )
-    assert_allclose(moved, [a.transform(point) for point in points])
+    assert_allclose(moved, [a.transform(point) for point in points], atol=1e-9)
 
 
 @given(vector=rotation_vectors)

@@ -23,7 +23,9 @@ class MappingConfig(BaseModel):
     sigma_floor: Positive = 0.002  # a cell is never known better
     drift: Annotated[float, Field(ge=0.0)] = 0.004  # m per square root of a second: odometry and the ground change
     sigma_ceiling: Positive = 0.05  # an old cell is kept, and never thought worse than this
-    window: Annotated[int, Field(ge=5)] = 15  # cells along the square whose features make a cell's roughness
+    window: Annotated[int, Field(ge=5)] = 11  # cells along the square whose features make a cell's roughness
     min_coverage: Fraction = 0.3  # of that square
     query_radius: Positive = 0.45  # m about the body: the feet and a stride
+    query_quantile: Fraction = 0.9  # of the circle's cells: the worst, but not ruled by one bad cell
+    query_coverage: Fraction = 0.5  # of the circle that must be known
     features: FeatureConfig = FeatureConfig()

@@ -21,6 +21,7 @@ class MatchingConfig(_Settings):
     block: Annotated[int, Field(ge=1)] = 5  # px
     uniqueness: Annotated[int, Field(ge=0)] = 8  # percent by which the best cost beats the second
     left_right_difference: Annotated[int, Field(ge=0)] = 1  # px both directions may differ by
+    speckle_area: Annotated[int, Field(ge=0)] = 60  # px; smaller islands of disparity are mistakes
     disparity_sigma: Positive = 0.24  # px, measured on rendered rough ground at 320 x 240
     smallest_disparity: Positive = 6.0  # px; beyond it a point says little about centimetres
 
@@ -48,16 +49,17 @@ class PatchConfig(_Settings):
 class FeatureConfig(_Settings):
     """Weights a_i and norms of eqs. 7 and 8; the paper sets them empirically and prints none.
 
-    Each a_i of roughness is the reciprocal of the feature's value on ground whose centre line average is 5 cm, times
-    its share; so roughness is 1 there.
+    With these, roughness is 1 where the centre line average is about 2.5 cm, as on the roughest 10 cm blocks of the
+    paper's testbed (height difference 113 % of the clearance), and step height is 1 for steps of 9 cm about the mean
+    plane, 18 cm from lowest to highest.
     """
 
     edge_height: Positive = 0.02  # m between neighbours of a cell pair that is an edge
     roughness_weights: tuple[float, float, float, float, float] = (8.0, 4.0, 1.2, 0.6, 0.2)
-    roughness_norm: Positive = 1.0
+    roughness_norm: Positive = 0.5
     peak_weight: float = 1.0  # a_6
     edge_weight: float = 1.0  # a_7
-    step_norm: Positive = 0.18  # m, 113 % of the clearance: the highest of the paper's testbed
+    step_norm: Positive = 0.09  # m, half of 113 % of the clearance
 
 
 class HealthConfig(_Settings):
@@ -66,6 +68,7 @@ class HealthConfig(_Settings):
     contrast: tuple[float, float] = (2.0, 8.0)  # grey levels, median local standard deviation
     sharpness: tuple[float, float] = (0.12, 0.35)  # horizontal and vertical detail relative to contrast
     consistency: tuple[float, float] = (0.45, 0.80)  # mean correlation of matched windows
+    row_error: tuple[float, float] = (0.9, 0.4)  # px between the rows of the eyes
     density: tuple[float, float] = (0.25, 0.60)  # fraction of ground pixels with a match
     smallest: Fraction = 0.3  # below it nothing is concluded from a frame
 
