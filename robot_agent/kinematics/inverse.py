@@ -1,0 +1,67 @@
+"""Inverse kinematics of all legs: closed form where the chain has one, damped least squares otherwise."""
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from robot_agent.kinematics.closed_form import solve_closed_form
+from robot_agent.kinematics.damped import solve_damped
+
+Array = NDArray[np.float64]
+
+TOLERANCE = 1e-6
+"""Distance, m, at which the iteration is content."""
+
+
+@njit(cache=True)
+def solve_leg(
+    dh: Array,
+    limits: Array,
+    yaw_roll_pitch: bool,
+    hip_in_body: Array,
+    hip_yaw: float,
+    foot_in_body: Array,
+    direction: Array,
+    previous: Array,
+    solution: Array,
+) -> float:
+    """Fill `solution` (n,) rad for one foot; returns the distance left, m. `previous` (n,) starts the iteration.
+
+    A foot that is not finite leaves the joints where they were and returns infinity.
+    """
+    for k in range(3):
+        if not (np.isfinite(foot_in_body[k]) and np.isfinite(direction[k])):
+            solution[:] = previous
+            return np.inf
+    if yaw_roll_pitch and solve_closed_form(dh, limits, hip_in_body, hip_yaw, foot_in_body, direction, solution):
+        return 0.0
+    solution[:] = previous
+    return solve_damped(dh, limits, hip_in_body, hip_yaw, foot_in_body, direction, TOLERANCE, solution)
+
+
+@njit(cache=True)
+def solve_legs(
+    dh: Array,
+    limits: Array,
+    yaw_roll_pitch: bool,
+    hips: Array,
+    hip_yaws: Array,
+    feet_in_body: Array,
+    direction: Array,
+    previous: Array,
+    solution: Array,
+    distance_left: Array,
+) -> None:
+    """`solve_leg` for every leg: feet (legs, 3), joints (legs, n), `distance_left` (legs,)."""
+    for leg in range(hips.shape[0]):
+        distance_left[leg] = solve_leg(
+            dh,
+            limits,
+            yaw_roll_pitch,
+            hips[leg],
+            hip_yaws[leg],
+            feet_in_body[leg],
+            direction,
+            previous[leg],
+            solution[leg],
+        )
