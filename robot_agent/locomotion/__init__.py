@@ -1,1 +1,6 @@
-"""From body velocity to joint targets (ICRA'17 III-C, OpenSHC)."""
+"""Gait, stride trajectories, impedance and posture: from body velocity to servo targets (ICRA'17 III-C)."""
+
+from robot_agent.locomotion.walk_tick import WalkInput, WalkOutput
+from robot_agent.locomotion.walker import Walker
+
+__all__ = ["WalkInput", "WalkOutput", "Walker"]

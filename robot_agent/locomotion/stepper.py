@@ -1,0 +1,243 @@
+"""Feet and body while standing and walking: gait, footholds, posture, load and impedance, in that order."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robot_agent.kinematics import LegModel
+from robot_agent.locomotion.body_motion import BodyMotion
+from robot_agent.locomotion.body_velocity import approach, limit_velocity
+from robot_agent.locomotion.feet import HANG, REACH, STAND, SWING, Feet, carry, lift, move_swinging
+from robot_agent.locomotion.gait_clock import GaitClock
+from robot_agent.locomotion.gait_parameters import SteadyParameters
+from robot_agent.locomotion.gait_start import best_start, overrun
+from robot_agent.locomotion.gaits import GAITS, Gait
+from robot_agent.locomotion.impedance import LegImpedance
+from robot_agent.locomotion.load import share_load
+from robot_agent.locomotion.senses import LegSenses
+from robot_agent.locomotion.workspace import reachable_radius
+from weaver_shared.config.locomotion import LocomotionConfig
+from weaver_shared.frames import GRAVITY
+from weaver_shared.robots import RobotDescription
+
+Array = NDArray[np.float64]
+
+PACE_TIME = 0.12
+"""s in which the gait slows to a halt when a foot finds no ground, and takes up again."""
+BRAKING_STRIDE = 0.05
+"""Fraction of a stride before the next lift-off at which a waiting gait begins to slow."""
+FREE_OVERRUN, LARGEST_OVERRUN = 1.2, 1.5
+"""In half strides: where a foot left too far behind begins to slow the body, and where it stops it."""
+
+
+class Stepper:
+    """Everything between a wanted body velocity and wanted foot places in body."""
+
+    def __init__(self, robot: RobotDescription, model: LegModel, config: LocomotionConfig, dt: float) -> None:
+        legs = model.leg_count
+        self._config = config
+        self._dt = dt
+        self._nominal = robot.stance_in_body
+        self._weight = robot.mass * GRAVITY
+        self._radius = reachable_radius(
+            model, self._nominal, np.array([-0.04, 0.0, 0.04]), 0.5 * config.largest_stride + 0.02
+        )
+        self._down_limit = float(self._nominal[:, 2].min()) - 0.09
+        self._waited = 0.0
+        self._skipped = False
+        self._limited = np.zeros(3)
+        self._surplus = np.zeros(legs)
+        self._anchor_weight = np.ones(legs)
+        self.clock = GaitClock(GAITS["tripod"])
+        self.feet = Feet(legs)
+        self.body = BodyMotion(config.posture, -float(self._nominal[:, 2].mean()), dt)
+        self.impedance = LegImpedance(legs, config.admittance, dt)
+        self.walking = False
+        self.pace = 1.0
+        self.commanded = np.zeros(3)  # velocity after limits and slewing
+        self.velocity = np.zeros(3)  # the same at the gait's present pace
+        self.share = np.zeros(legs)
+        self.load = np.zeros(legs)
+        self.reasons: tuple[str, ...] = ()
+
+    def begin(self, places: Array, share: Array, up: Array) -> None:
+        """Stand with the feet at `places` (legs, 3), each carrying its `share` (legs,) 0..1."""
+        self.feet.stand_at(places)
+        self.impedance.clear()
+        self.share[:] = share
+        self.body.begin(np.array([-up[0] / up[2], -up[1] / up[2], float(places[:, 2].mean())]))
+        self.walking = False
+        self.pace = 1.0
+        self.commanded[:] = 0.0
+        self.velocity[:] = 0.0
+
+    @property
+    def stance(self) -> Array:
+        """Middle of every foot's stance, (legs, 3), shifted for the inclination."""
+        result = self._nominal.copy()
+        result[:, :2] += self.body.shift
+        return result
+
+    def slow_down(self, factor: float) -> None:
+        """The joints could follow only `factor` of the last tick: the gait takes its time."""
+        self.pace = min(self.pace, max(factor, 0.1))
+
+    def places(self, up: Array) -> Array:
+        """Wanted foot centres in body with the impedance's offsets, (legs, 3)."""
+        result: Array = self.feet.place + self.impedance.offset[:, :1] * up
+        return result
+
+    def step(self, senses: LegSenses, wanted: Array, parameters: SteadyParameters, gait: Gait) -> None:
+        """One tick towards `wanted` (vx, vy, turn)."""
+        self.reasons = ()
+        stance = self.stance
+        self._accelerate(wanted, stance, parameters.frequency)
+        self._start_or_stop(wanted, stance, parameters.frequency, gait)
+        if self.walking:
+            self._advance(parameters, stance, senses.up)
+        self._move(senses, stance, parameters)
+        self._carry_load(senses, parameters)
+
+    def _accelerate(self, wanted: Array, stance: Array, frequency: float) -> None:
+        config = self._config
+        factor = limit_velocity(
+            wanted,
+            stance,
+            self._radius,
+            self.clock.duty,
+            frequency,
+            config.largest_stride,
+            config.largest_speed,
+            self._limited,
+        )
+        if factor < 0.999:
+            self.reasons += ("the stride is at its limit",)
+        approach(
+            self.commanded,
+            self._limited,
+            config.largest_speed / config.start_time,
+            config.largest_speed / config.stop_time,
+            self._dt,
+        )
+
+    def _start_or_stop(self, wanted: Array, stance: Array, frequency: float, gait: Gait) -> None:
+        moving = bool(wanted.any())
+        self.clock.choose(gait)
+        if moving and not self.walking:
+            phase = best_start(self.feet.place, stance, wanted, gait.offsets, gait.duty, frequency)
+            self.clock.restart(phase)
+            self.feet.lifted[:] = self.clock.leg_phase < self.clock.swing
+            self.feet.lifted[(self.clock.leg_phase < 1e-9) | (self.clock.leg_phase > 1.0 - 1e-9)] = False
+            self.walking, self._skipped, self.pace, self._waited = True, False, 1.0, 0.0
+            self._halted = False
+        elif self.walking:
+            in_air = bool(((self.feet.mode == SWING) | (self.feet.mode == REACH)).any())
+            self._halted = not moving or self._skipped
+            if self._halted and not in_air and not self.commanded.any():
+                self.walking = False
+                self._skipped = False
+        if self.walking and self._halted and self._skipped:
+            approach(self.commanded, np.zeros(3), 1.0, self._config.largest_speed / self._config.stop_time, self._dt)
+
+    def _advance(self, parameters: SteadyParameters, stance: Array, up: Array) -> None:
+        """Run the clock and lift the feet whose swing begins, or hold it while a foot still reaches for the ground."""
+        feet, clock = self.feet, self.clock
+        strides = parameters.frequency * self._dt
+        standing = (feet.mode == STAND) | (feet.mode == HANG)
+        until_lift = float(
+            np.where(standing & ~feet.lifted | (clock.leg_phase >= clock.swing), 1.0 - clock.leg_phase, 1.0).min()
+        )
+        reaching = bool((feet.mode == REACH).any())
+        target = min(max(until_lift / BRAKING_STRIDE, 0.0), 1.0) if reaching else 1.0
+        change = self._dt / PACE_TIME
+        self.pace += min(max(target - self.pace, -change), change)
+        strides *= self.pace
+        if reaching and strides >= until_lift - 1e-4:
+            strides = 0.0
+            self._waited += self._dt
+            self.reasons += ("waiting for a foot to find ground",)
+            if self._waited > self._config.foothold.waiting_time:
+                feet.mode[feet.mode == REACH] = HANG
+        else:
+            self._waited = 0.0
+        clock.advance(strides)
+        phase, swing = clock.leg_phase, clock.swing
+        for leg in range(phase.size):
+            if phase[leg] >= swing:
+                feet.lifted[leg] = False
+            elif not feet.lifted[leg] and feet.mode[leg] in (STAND, HANG):
+                if self._halted:
+                    self._skipped = True
+                    continue
+                lift(
+                    leg, feet.mode, feet.place, feet.lift_off, self.impedance.offset, up, parameters.height,
+                    feet.swing_height, feet.lifted, feet.reached,
+                )  # fmt: skip
+
+    def _move(self, senses: LegSenses, stance: Array, parameters: SteadyParameters) -> None:
+        config, feet, body = self._config, self.feet, self.body
+        np.multiply(self.commanded, self.pace, out=self.velocity)
+        far = overrun(feet.mode, feet.place, stance, self.velocity, 0.5 * config.largest_stride)
+        if far > FREE_OVERRUN:
+            self.velocity *= max((LARGEST_OVERRUN - far) / (LARGEST_OVERRUN - FREE_OVERRUN), 0.0)
+            self.reasons += ("a foot is left far behind",)
+        np.copyto(self._anchor_weight, np.where(feet.mode == HANG, 0.1, 1.0))
+        body.update(feet.anchor, self._anchor_weight, senses.up, senses.centre_of_mass)
+        linear = body.linear.copy()
+        linear[:2] += self.velocity[:2]
+        linear[2] += body.climb(self.velocity)
+        angular = body.angular.copy()
+        angular[2] += self.velocity[2]
+        standing = (feet.mode == STAND) | (feet.mode == HANG)
+        carried = feet.place[standing]
+        carry(carried, linear, angular, self._dt)
+        feet.place[standing] = carried
+        carry(feet.anchor, linear, angular, self._dt)
+        carry(feet.lift_off, body.linear, body.angular, self._dt)
+        reaching = feet.mode == REACH
+        move_swinging(
+            feet.mode,
+            feet.place,
+            feet.lift_off,
+            stance,
+            body.plane,
+            senses.up,
+            self.velocity,
+            feet.swing_height,
+            feet.reached,
+            senses.contact,
+            self.clock.leg_phase,
+            self.clock.duty,
+            parameters.frequency,
+            config.foothold.touchdown_speed,
+            config.foothold.reach_down,
+            config.foothold.earliest_contact,
+            config.feel_ground,
+            self._dt,
+            self._down_limit,
+            float(self._nominal[:, 2].max()) + 0.16,
+        )
+        del reaching
+        grounded = feet.mode == STAND
+        if config.feel_ground:
+            grounded &= senses.contact
+            feet.anchor[grounded] = senses.feet[grounded]
+        else:
+            feet.anchor[grounded] = feet.place[grounded]
+
+    def _carry_load(self, senses: LegSenses, parameters: SteadyParameters) -> None:
+        """Share the weight among the standing feet, easing it on after touch-down and off before lift-off."""
+        foothold = self._config.foothold
+        wanted = (self.feet.mode == STAND).astype(np.float64)
+        if self.walking and not self._halted:
+            left = (1.0 - self.clock.leg_phase) / parameters.frequency / foothold.load_time
+            wanted = np.where(self.feet.lifted, wanted, np.minimum(wanted, np.maximum(left, 0.05)))
+        step = self._dt / foothold.load_time
+        self.share += np.clip(wanted - self.share, -step, step)
+        self.share[(self.feet.mode == SWING) | (self.feet.mode == REACH)] = 0.0
+        share_load(self.feet.place, senses.centre_of_mass, senses.up, self.share, self._weight, self.load)
+        if self._config.feel_ground:
+            np.subtract(senses.force, self.load, out=self._surplus)
+            self._surplus[self.feet.mode != STAND] = 0.0
+            self.impedance.step(self._surplus, parameters.stiffness)

@@ -1,0 +1,40 @@
+"""What the walker is given and what it answers, once a control tick."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weaver_shared.messages import GaitParameters
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WalkInput:
+    """Joint and leg order as in the robot description."""
+
+    stamp_ns: int
+    velocity: Array  # (3,) vx, vy m/s and turn rad/s wanted of the body, in body
+    parameters: GaitParameters
+    gait: str
+    stand: bool  # False: sit
+    joint_position: Array  # (joints,) rad, measured
+    joint_torque: Array  # (joints,) N m, measured
+    foot_contact: NDArray[np.bool_]  # (legs,)
+    gravity_in_body: Array  # (3,) unit vector, downwards
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WalkOutput:
+    """`posture` is one of sitting, rising, standing, walking, lowering."""
+
+    joint_position: Array  # (joints,) rad, for the servos
+    foot_in_body: Array  # (legs, 3) m, wanted foot centres
+    foot_force: Array  # (legs,) N, vertical, from the joint torques
+    phase: Array  # (legs,) 0..1 of the stride, 0 at lift-off
+    swing: NDArray[np.bool_]  # (legs,) True while a foot is in the air
+    velocity: Array  # (3,) really walked after all limits
+    stability_margin: float  # m, static
+    posture: str
+    reasons: tuple[str, ...]  # what limits the walking just now

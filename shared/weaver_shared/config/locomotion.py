@@ -1,0 +1,78 @@
+"""Settings of the gait, the legs' impedance and the body posture (ICRA'17 III-C)."""
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Positive = Annotated[float, Field(gt=0.0)]
+Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+
+
+class AdmittanceConfig(BaseModel):
+    """Eq. 6. The stiffness itself comes with the gait parameters."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    virtual_mass: Positive = 2.0  # kg
+    damping_ratio: Positive = 1.0
+    smallest_damping: Positive = 260.0  # N s/m; servo and ground are ~5 kN/m: less rings with 30 ms of delay
+    largest_offset: Positive = 0.08  # m
+    largest_force: Positive = 80.0  # N, of the error that is fed in
+    force_time: Positive = 0.02  # s, low-pass on the force
+    stiffness_bounds: tuple[Positive, Positive] = (200.0, 5000.0)  # N/m
+
+
+class PostureConfig(BaseModel):
+    """Body height and attitude over the feet."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    follow_ground: Fraction = 0.6  # 0: level with gravity, 1: parallel to the ground
+    attitude_gain: Positive = 2.0  # 1/s
+    attitude_rate: Positive = 0.25  # rad/s
+    height_gain: Positive = 2.0  # 1/s
+    height_rate: Positive = 0.06  # m/s
+    shift_fraction: Fraction = 0.9  # of what puts the mass over the middle of the feet
+    largest_shift: Positive = 0.06  # m
+    shift_rate: Positive = 0.03  # m/s
+    plane_time: Positive = 0.25  # s, low-pass on the fitted ground plane
+    attitude_dead_band: Positive = 0.004  # rad
+    height_dead_band: Positive = 0.001  # m
+
+
+class FootholdConfig(BaseModel):
+    """How a swinging foot finds the ground."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    touchdown_speed: Positive = 0.08  # m/s downwards at the planned end of a swing and while reaching further
+    reach_down: Positive = 0.07  # m below the expected ground before the foot gives up
+    earliest_contact: Fraction = 0.45  # of the swing; before that a contact is the foot leaving or brushing
+    waiting_time: Positive = 1.0  # s the gait waits for a foot without ground before it goes on
+    load_time: Positive = 0.08  # s over which a foot takes up or gives off its load
+    contact_hold: Positive = 0.03  # s a contact outlasts its last reading
+
+
+class LocomotionConfig(BaseModel):
+    """Everything the walker can be tuned with; distances m, times s."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    admittance: AdmittanceConfig = AdmittanceConfig()
+    posture: PostureConfig = PostureConfig()
+    foothold: FootholdConfig = FootholdConfig()
+    largest_stride: Positive = 0.20  # paper: 0.35 m/s at 1 Hz
+    largest_speed: Positive = 0.35  # m/s (paper)
+    stop_time: Positive = 0.4  # s from the largest velocity to zero
+    start_time: Positive = 0.8  # s from zero to the largest velocity
+    frequency_bounds: tuple[Positive, Positive] = (0.1, 1.5)  # Hz
+    height_bounds: tuple[Positive, Positive] = (0.01, 0.16)  # m
+    frequency_rate: Positive = 0.5  # Hz/s
+    height_rate: Positive = 0.1  # m/s, between swings
+    stiffness_rate: Positive = 2000.0  # N/m/s
+    rise_speed: Positive = 0.06  # m/s, mean, while standing up or sitting down
+    soft_start_speed: Positive = 0.6  # rad/s, mean, towards the posture before standing up
+    sitting_foot_height: float = 0.02  # m, feet against the hip plane when the belly rests on the ground
+    speed_fraction: Fraction = 0.9  # of the servos' no-load speed
+    feel_ground: bool = True  # False: feet touch down where and when planned; for trajectories without physics
+    compensate_servos: bool = True  # lead the servos by the sag and lag known from their data
