@@ -36,9 +36,13 @@ class VisionProcess:
 
     def run(self, ended: threading.Event) -> None:
         while not ended.is_set():
-            frame = self._pictures.take(PICTURE_WAIT)
-            if frame is not None:
-                self._see(frame)
+            self.turn(PICTURE_WAIT)
+
+    def turn(self, wait: float = 0.0) -> None:
+        """Process the newest picture if one comes within `wait` s."""
+        frame = self._pictures.take(wait)
+        if frame is not None:
+            self._see(frame)
 
     def _see(self, frame: StereoFrame) -> None:
         if frame.stamp_ns < self._last_ns - BACKWARDS_NS:

@@ -19,7 +19,8 @@ from sim_agent.worlds import World
 from weaver_shared import topics
 from weaver_shared.bus import MemoryBus
 from weaver_shared.clock import SimulatedClock
-from weaver_shared.messages import Answer, Command, CommandName, Proprioception, TruthState, Waypoint
+from weaver_shared.messages import CommandName, Proprioception, TruthState
+from weaver_shared.operator import Operator
 from weaver_shared.robots import RobotDescription
 
 OPERATOR = "lock step"
@@ -53,28 +54,28 @@ class LockStep:
             robot_id=robot_id, body=self._body, bus=self.bus, world=world.name, wall_clock_ns=self.clock.now_ns
         )
         self._vision = VisionLoop(robot_id=robot_id, robot=robot, bus=self.bus)
-        self._camera_ticks = round(CONTROL_RATE / robot.camera.rate)
         self._workers = ThreadPoolExecutor(1)
         self._seeing: Future[VisionTick] | None = None
         self._ticks = 0
-        self._sequence = 0
-        self._epoch = 0
+        self._frames = 0
+        self.operator = Operator(self.bus, robot_id, OPERATOR)
 
     def step(self) -> Moment:
         """One control tick, and the camera's and vision's turn when it is theirs."""
         self.clock.forward(seconds=1.0 / CONTROL_RATE)
-        if self._epoch and self._ticks % RETAIN_TICKS == 0:
-            self.command(CommandName.RETAIN_CONTROL)
+        if self.operator.has_held_control and self._ticks % RETAIN_TICKS == 0:
+            self.operator.send(CommandName.RETAIN_CONTROL)
         walk, sensed = self.walk.tick()
         if not self._vision.begun:
             self._vision.begin(walk.state.world_from_body)
         seen = None
-        camera_due = self._ticks % self._camera_ticks == 0
+        camera_due = self._body.camera_due()
         if camera_due:
             seen = self._collect()
         self._vision.feel(sensed)
         if camera_due:
-            frame = self._renderer.render(self._body.scene_state(), self._ticks // self._camera_ticks)
+            frame = self._renderer.render(self._body.scene_state(), self._frames)
+            self._frames += 1
             imu = self._vision.take_imu(frame.stamp_ns)
             self._seeing = self._workers.submit(self._vision.process, frame, imu)
         self._ticks += 1
@@ -82,31 +83,6 @@ class LockStep:
         if truth is not None:
             self.bus.publish(self._robot_id, topics.TRUTH, truth)
         return Moment(walk=walk, sensed=sensed, vision=seen, truth=truth)
-
-    def command(
-        self,
-        command: CommandName,
-        *,
-        name: str = "",
-        value: float = 0.0,
-        waypoints: tuple[Waypoint, ...] = (),
-    ) -> Answer:
-        """Send a command as the one operator there is."""
-        self._sequence += 1
-        answer = self.bus.request(
-            self._robot_id,
-            Command(
-                command=command,
-                operator=OPERATOR,
-                lease_epoch=self._epoch,
-                sequence=self._sequence,
-                name=name,
-                value=value,
-                waypoints=waypoints,
-            ),
-        )
-        self._epoch = answer.lease_epoch
-        return answer
 
     def close(self) -> None:
         self._workers.shutdown()

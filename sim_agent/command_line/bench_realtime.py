@@ -22,7 +22,8 @@ from tqdm import tqdm
 from weaver_shared import topics
 from weaver_shared.bus import ZenohBus, free_port
 from weaver_shared.errors import ResourceError
-from weaver_shared.messages import Command, CommandName, Health, LoopTiming, Waypoint
+from weaver_shared.messages import CommandName, Health, LoopTiming, Waypoint
+from weaver_shared.operator import Operator
 
 ROBOT_ID = "bench"
 OPERATOR = "bench"
@@ -58,7 +59,7 @@ def _part(options: argparse.Namespace, *, browser: bool) -> dict[str, Any]:
     with contextlib.ExitStack() as stack:
         port = free_port()
         started = stack.enter_context(_product(options.world, port))
-        operator = stack.enter_context(contextlib.closing(_Operator(started["bus"])))
+        operator = stack.enter_context(contextlib.closing(_Driver(started["bus"])))
         operator.begin()
         if browser:
             stack.enter_context(_page(port))
@@ -109,7 +110,7 @@ def _page(port: int) -> Iterator[None]:
 
 
 @dataclass
-class _Operator:
+class _Driver:
     """Takes control over the bus, walks the robot to and fro, and collects the loops' own timing."""
 
     endpoint: str
@@ -120,17 +121,13 @@ class _Operator:
         self._bus = ZenohBus(connect=[self.endpoint])
         self._bus.subscribe(ROBOT_ID, topics.HEALTH, self._hear)
         self._bus.subscribe(ROBOT_ID, topics.MODE, self._note_mode)
-        self._lock = threading.Lock()
-        self._sequence = 0
-        self._epoch = 0
-        self._ended = threading.Event()
-        self._keeper = threading.Thread(target=self._retain, daemon=True)
+        self._operator = Operator(self._bus, ROBOT_ID, OPERATOR)
 
     def begin(self) -> None:
         """Stand up and set off; returns when the robot walks."""
         self._until(lambda: self._bus.alive(ROBOT_ID), 30.0, "the robot did not appear")
         self._until(lambda: self._send(CommandName.TAKE_CONTROL), 30.0, "control was not granted")
-        self._keeper.start()
+        self._operator.retain_in_background()
         self._until(lambda: self._send(CommandName.STAND), 30.0, "the robot did not stand up")
         there_and_back = (Waypoint(x=2.0, y=0.0), Waypoint(x=0.0, y=0.0)) * 5
         self._send(CommandName.SET_MISSION, waypoints=there_and_back)
@@ -150,29 +147,14 @@ class _Operator:
         return result
 
     def close(self) -> None:
-        self._ended.set()
+        self._operator.close()
         self._bus.close()
 
     def _send(self, command: CommandName, *, waypoints: tuple[Waypoint, ...] = ()) -> bool:
-        with self._lock:
-            self._sequence += 1
-            request = Command(
-                command=command,
-                operator=OPERATOR,
-                lease_epoch=self._epoch,
-                sequence=self._sequence,
-                waypoints=waypoints,
-            )
-            try:
-                answer = self._bus.request(ROBOT_ID, request)
-            except ResourceError:
-                return False
-            self._epoch = answer.lease_epoch
-            return answer.accepted
-
-    def _retain(self) -> None:
-        while not self._ended.wait(0.4):
-            self._send(CommandName.RETAIN_CONTROL)
+        try:
+            return self._operator.send(command, waypoints=waypoints).accepted
+        except ResourceError:
+            return False
 
     def _until(self, done: Any, timeout: float, otherwise: str) -> None:
         deadline = time.monotonic() + timeout

@@ -34,13 +34,12 @@ def main(arguments: list[str]) -> int:
         loop = WalkLoop(robot_id=options.robot_id, body=body, bus=bus, world=world.name)
         if options.stand:
             loop.desk.stand_unattended()
-        camera_ticks = round(CONTROL_RATE / robot.camera.rate)
         count = 0
 
         def tick() -> None:
             nonlocal count
             loop.tick()
-            if count % camera_ticks == 0:
+            if body.camera_due():
                 bus.publish(options.robot_id, topics.SCENE, body.scene_state())
             if count % 2 == 0:
                 bus.publish(options.robot_id, topics.TRUTH, body.truth())

@@ -53,16 +53,16 @@ def walk(options: argparse.Namespace, *, tell_truth: bool = True) -> dict[str, A
 
 def _mission(run: LockStep, log: RunLog, goal: Waypoint, options: argparse.Namespace) -> bool:
     run.step()
-    _must(run.command(CommandName.TAKE_CONTROL))
-    _must(run.command(CommandName.STAND))
+    _must(run.operator.send(CommandName.TAKE_CONTROL))
+    _must(run.operator.send(CommandName.STAND))
     if options.adapt == "off":
         _fix_parameters(run)
-    _must(run.command(CommandName.SET_GAIT, name=options.gait))
-    _must(run.command(CommandName.SET_MISSION, waypoints=(goal,)))
+    _must(run.operator.send(CommandName.SET_GAIT, name=options.gait))
+    _must(run.operator.send(CommandName.SET_MISSION, waypoints=(goal,)))
     for _ in range(round(STAND_SECONDS * CONTROL_RATE)):
         if run.step().walk.walk.posture == "standing":
             break
-    _must(run.command(CommandName.START_MISSION))
+    _must(run.operator.send(CommandName.START_MISSION))
     with tqdm(total=0, unit=" s", disable=not sys.stderr.isatty(), bar_format="{desc}") as bar:
         for tick in range(round(options.timeout * CONTROL_RATE)):
             moment = run.step()
@@ -81,7 +81,7 @@ def _mission(run: LockStep, log: RunLog, goal: Waypoint, options: argparse.Names
 def _fix_parameters(run: LockStep) -> None:
     """The paper's non-adaptive set: constant, tuned to the roughest part."""
     for name, value in safe_gait(AdaptationConfig()).items():
-        _must(run.command(CommandName.SET_OVERRIDE, name=name, value=value))
+        _must(run.operator.send(CommandName.SET_OVERRIDE, name=name, value=value))
 
 
 def _must(answer: Answer) -> None:
