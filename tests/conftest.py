@@ -56,8 +56,7 @@ def _running(*options: str) -> Iterator[Product]:
 
 
 def _collect(stream: Any, notes: list[str]) -> None:
-    for line in stream:
-        notes.append(line.rstrip())
+    notes.extend(line.rstrip() for line in stream)
 
 
 class Listener:
