@@ -19,6 +19,7 @@ class MappingConfig(BaseModel):
     tile: Annotated[int, Field(ge=8)] = 32  # cells along a tile's edge
     tiles: Annotated[int, Field(ge=3)] = 11  # along the window's edge: 7.04 m, at least 3.2 m to each side
     gate: Positive = 3.0  # standard deviations an elevation may differ from the map's
+    gate_slack: Annotated[float, Field(ge=0.0)] = 0.01  # m that are never an outlier: edges seen from elsewhere
     rejections: Annotated[int, Field(ge=1, le=255)] = 3  # in a row, after which the new elevation is believed
     sigma_floor: Positive = 0.002  # a cell is never known better
     drift: Annotated[float, Field(ge=0.0)] = 0.004  # m per square root of a second: odometry and the ground change

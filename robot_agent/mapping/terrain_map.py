@@ -1,0 +1,180 @@
+"""The ground around the robot as seen so far, and its worst place under the feet (ICRA'17 III-E, Fig. 7)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robot_agent.mapping.elevation_fusion import Extent, FusionRules, fuse
+from robot_agent.mapping.rolling_grid import RollingGrid
+from robot_agent.mapping.sliding_features import cell_features
+from robot_agent.mapping.tiles import quantised_tile
+from weaver_shared.config.mapping import MappingConfig
+from weaver_shared.messages import MapTile, OdometryEstimate
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorstTerrain:
+    """The roughest and highest of a circle, 0..1 with standard deviations; NaN where too little is known."""
+
+    roughness: float
+    roughness_sigma: float
+    step_height: float
+    step_height_sigma: float
+    known: float  # share of the circle's cells with an answer
+
+
+class HeightPatch(Protocol):
+    """World-aligned heights (n, n) whose first cell is world cell (row0, column0); NaN unknown."""
+
+    @property
+    def row0(self) -> int: ...
+    @property
+    def column0(self) -> int: ...
+    @property
+    def cell(self) -> float: ...
+    @property
+    def elevation(self) -> NDArray[np.float32]: ...
+    @property
+    def variance(self) -> NDArray[np.float32]: ...
+
+
+class Perceived(Protocol):
+    @property
+    def stamp_ns(self) -> int: ...
+    @property
+    def grid(self) -> HeightPatch: ...
+
+
+class TerrainMap:
+    """Rolling grid of elevations with roughness and step height of every cell; unseen is unknown, not flat."""
+
+    def __init__(self, config: MappingConfig = MappingConfig()) -> None:  # noqa: B008
+        self._config = config
+        self.grid = RollingGrid(config)
+        self._rules = FusionRules(
+            gate=config.gate,
+            slack=config.gate_slack,
+            rejections=config.rejections,
+            floor=config.sigma_floor,
+            drift=config.drift,
+            ceiling=config.sigma_ceiling,
+        )
+        self._changed: set[tuple[int, int]] = set()
+
+    def update(self, perceived: Perceived, odometry: OdometryEstimate) -> None:
+        """Merge one frame's heights and renew roughness and step height where they changed.
+
+        Raises ValueError when the patch's cells are not the map's.
+        """
+        patch, grid = perceived.grid, self.grid
+        if not math.isclose(patch.cell, grid.cell):
+            raise ValueError(f"the patch has cells of {patch.cell} m, the map of {grid.cell} m")
+        x, y = odometry.position_in_world[:2]
+        if not (math.isfinite(x) and math.isfinite(y)):
+            return
+        grid.recentre(x, y)
+        extent = fuse(
+            patch.elevation,
+            patch.variance,
+            patch.row0,
+            patch.column0,
+            grid.row0,
+            grid.column0,
+            grid.elevation,
+            grid.variance,
+            grid.rejected,
+            grid.seen_ns,
+            perceived.stamp_ns,
+            self._rules,
+        )
+        if extent.row_end > extent.row:
+            self._renew_features(extent)
+
+    def worst_within(self, x: float, y: float, radius: float | None = None) -> WorstTerrain:
+        """Worst roughness and step height within `radius` m (the feet's reach by default) of world (x, y).
+
+        The worst is a high quantile, so that one bad cell does not rule the gait; its sigma is that of the cells
+        about as bad.
+        """
+        radius = self._config.query_radius if radius is None else radius
+        grid = self.grid
+        row, column = grid.cell_of(x, y)
+        reach = math.ceil(radius / grid.cell)
+        rows = np.arange(row - reach, row + reach + 1)
+        columns = np.arange(column - reach, column + reach + 1)
+        dx = (rows + 0.5) * grid.cell - x
+        dy = (columns + 0.5) * grid.cell - y
+        inside = dx[:, None] ** 2 + dy[None, :] ** 2 <= radius**2
+        held = ((rows >= grid.row0) & (rows < grid.row0 + grid.size))[:, None] & (
+            (columns >= grid.column0) & (columns < grid.column0 + grid.size)
+        )[None, :]
+        place = np.ix_(rows % grid.size, columns % grid.size)
+        known = inside & held & np.isfinite(grid.roughness[place])
+        share = float(known.sum()) / max(1, int(inside.sum()))
+        if share < self._config.query_coverage:
+            return WorstTerrain(
+                roughness=np.nan, roughness_sigma=np.nan, step_height=np.nan, step_height_sigma=np.nan, known=share
+            )
+        roughness, roughness_sigma = self._worst(grid.roughness[place][known], grid.roughness_sigma[place][known])
+        step, step_sigma = self._worst(grid.step_height[place][known], grid.step_height_sigma[place][known])
+        return WorstTerrain(
+            roughness=roughness,
+            roughness_sigma=roughness_sigma,
+            step_height=step,
+            step_height_sigma=step_sigma,
+            known=share,
+        )
+
+    def elevation_at(self, x: float, y: float) -> float:
+        """World z in m of the cell that holds (x, y); NaN unknown."""
+        row, column = self.grid.cell_of(x, y)
+        if not self.grid.holds(row, column):
+            return float("nan")
+        return float(self.grid.elevation[row % self.grid.size, column % self.grid.size])
+
+    def changed_tiles(self, stamp_ns: int) -> list[MapTile]:
+        """Tiles that changed since the last call, as of `stamp_ns`."""
+        changed, self._changed = self._changed, set()
+        return [quantised_tile(self.grid, i, j, stamp_ns) for i, j in sorted(changed) if self._holds_tile(i, j)]
+
+    def _worst(self, values: NDArray[np.float32], sigmas: NDArray[np.float32]) -> tuple[float, float]:
+        worst = float(np.quantile(values, self._config.query_quantile))
+        return worst, float(np.median(sigmas[values >= worst]))
+
+    def _holds_tile(self, i: int, j: int) -> bool:
+        grid = self.grid
+        return 0 <= i - grid.tile_row < grid.tiles and 0 <= j - grid.tile_column < grid.tiles
+
+    def _renew_features(self, extent: Extent) -> None:
+        """Features of the changed cells and of all whose square holds one of them."""
+        grid, half = self.grid, self._config.window // 2
+        rows = grid.slots(extent.row - 2 * half, extent.row_end + 2 * half, grid.row0)
+        columns = grid.slots(extent.column - 2 * half, extent.column_end + 2 * half, grid.column0)
+        place = np.ix_(rows, columns)
+        features = cell_features(grid.elevation[place], grid.variance[place], self._config)
+        inner_row = max(extent.row - half, grid.row0)
+        inner_column = max(extent.column - half, grid.column0)
+        inner_row_end = min(extent.row_end + half, grid.row0 + grid.size)
+        inner_column_end = min(extent.column_end + half, grid.column0 + grid.size)
+        skip_row = inner_row - max(extent.row - 2 * half, grid.row0)
+        skip_column = inner_column - max(extent.column - 2 * half, grid.column0)
+        inner = (
+            slice(skip_row, skip_row + inner_row_end - inner_row),
+            slice(skip_column, skip_column + inner_column_end - inner_column),
+        )
+        place = np.ix_(rows[inner[0]], columns[inner[1]])
+        grid.roughness[place] = features.roughness[inner]
+        grid.roughness_sigma[place] = features.roughness_sigma[inner]
+        grid.step_height[place] = features.step_height[inner]
+        grid.step_height_sigma[place] = features.step_height_sigma[inner]
+        grid.slope[place] = features.slope[inner]
+        self._changed |= {
+            (i, j)
+            for i in range(inner_row // grid.tile, (inner_row_end - 1) // grid.tile + 1)
+            for j in range(inner_column // grid.tile, (inner_column_end - 1) // grid.tile + 1)
+        }

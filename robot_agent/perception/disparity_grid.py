@@ -1,0 +1,217 @@
+"""Disparities to the highest point of each world grid cell, in one pass over the picture (ICRA'17 III-D, DEM)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from robot_agent.perception.working_camera import WorkingCamera
+from weaver_shared.config.perception import GridConfig
+from weaver_shared.transforms import Pose
+
+Array = NDArray[np.float64]
+
+SUBPIXELS = 16
+"""OpenCV gives disparities as integer sixteenths of a pixel."""
+
+INDEPENDENT_POINTS = 8.0
+"""Matching smooths over its window, so about this many neighbouring points share one error."""
+
+LARGEST_DISPARITY = 256  # px
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeightGrid:
+    """Square of world cells; cell (r, c) is centred at ((row0 + r + 0.5) * cell, (column0 + c + 0.5) * cell)."""
+
+    row0: int
+    column0: int
+    cell: float  # m
+    elevation: NDArray[np.float32]  # (n, n) world z in m of the cell's top, NaN unknown
+    variance: NDArray[np.float32]  # (n, n) m^2
+
+    def at(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """Elevation and variance of the cells that hold the points; NaN outside."""
+        rows = np.floor(x / self.cell).astype(np.int64) - self.row0
+        columns = np.floor(y / self.cell).astype(np.int64) - self.column0
+        size = self.elevation.shape[0]
+        inside = (rows >= 0) & (rows < size) & (columns >= 0) & (columns < size)
+        rows, columns = np.where(inside, rows, 0), np.where(inside, columns, 0)
+        elevation = np.where(inside, self.elevation[rows, columns], np.nan)
+        variance = np.where(inside, self.variance[rows, columns], np.nan)
+        return elevation, variance
+
+
+class _Projection(NamedTuple):
+    """Pixels to world: ray slopes of columns and rows, depth and its sigma by sixteenths of disparity, pose."""
+
+    columns: Array
+    rows: Array
+    depths: Array
+    depth_sigmas: Array
+    smallest: int
+    rotation: Array
+    position: Array
+
+
+class _Gate(NamedTuple):
+    """Expected ground z = a x + b y + c, half height at the camera and its growth with distance, reach (m)."""
+
+    a: float
+    b: float
+    c: float
+    height: float
+    slope: float
+    reach: float
+
+
+class _Cells(NamedTuple):
+    row0: int
+    column0: int
+    size: int
+    cell: float
+
+
+class _Points(NamedTuple):
+    """Accepted points in the order met: flat cell index, height, variance of the height."""
+
+    cell: NDArray[np.int32]
+    height: NDArray[np.float32]
+    variance: NDArray[np.float32]
+
+
+class DisparityGrid:
+    """Turns one disparity picture into a `HeightGrid` about the camera; keeps its scratch memory."""
+
+    def __init__(self, camera: WorkingCamera, config: GridConfig, disparity_sigma: float) -> None:
+        self._config = config
+        self._columns, self._rows = camera.ray_slopes()
+        pixels = camera.width * camera.height
+        self._points = _Points(
+            cell=np.empty(pixels, dtype=np.int32),
+            height=np.empty(pixels, dtype=np.float32),
+            variance=np.empty(pixels, dtype=np.float32),
+        )
+        self._half = math.ceil(config.reach / config.cell)
+        disparity = np.maximum(np.arange(LARGEST_DISPARITY * SUBPIXELS), 1) / SUBPIXELS
+        self._depths = camera.focal_length * camera.baseline / disparity
+        self._depth_sigmas = self._depths / disparity * disparity_sigma
+
+    def fuse(
+        self,
+        disparity: NDArray[np.int16],
+        world_from_camera: Pose,
+        ground: tuple[float, float, float],
+        smallest_disparity: float,
+    ) -> HeightGrid:
+        """Highest points of `disparity` (height, width), sixteenths of a pixel, invalid where not positive.
+
+        `ground` is (a, b, c) of the expected ground z = a x + b y + c in world; points far off it are left out.
+        """
+        config = self._config
+        size = 2 * self._half + 1
+        row, column = (math.floor(p / config.cell) - self._half for p in world_from_camera.position[:2])
+        projection = _Projection(
+            columns=self._columns,
+            rows=self._rows,
+            depths=self._depths,
+            depth_sigmas=self._depth_sigmas,
+            smallest=max(1, round(smallest_disparity * SUBPIXELS)),
+            rotation=np.ascontiguousarray(world_from_camera.rotation, dtype=np.float64),
+            position=np.ascontiguousarray(world_from_camera.position, dtype=np.float64),
+        )
+        a, b, c = (float(value) for value in ground)
+        gate = _Gate(a=a, b=b, c=c, height=config.height_gate, slope=config.gate_slope, reach=config.reach)
+        cells = _Cells(row0=row, column0=column, size=size, cell=config.cell)
+        top = np.full(size * size, -np.inf, dtype=np.float32)
+        count = _list_points(disparity, projection, gate, cells, self._points, top)
+        elevation, variance = _average_tops(count, self._points, top, config.top_band, config.min_points)
+        return HeightGrid(
+            row0=row,
+            column0=column,
+            cell=config.cell,
+            elevation=elevation.reshape(size, size),
+            variance=variance.reshape(size, size),
+        )
+
+
+@njit(cache=True)  # type: ignore[untyped-decorator]
+def _list_points(
+    disparity: NDArray[np.int16],
+    projection: _Projection,
+    gate: _Gate,
+    cells: _Cells,
+    points: _Points,
+    top: NDArray[np.float32],
+) -> int:
+    """List the points within reach and gate; `top` gets each cell's highest. Returns how many there are."""
+    height, width = disparity.shape
+    rotation, position = projection.rotation, projection.position
+    per_cell = 1.0 / cells.cell
+    largest = projection.depths.shape[0] - 1
+    reach_squared = gate.reach * gate.reach
+    listed = 0
+    for v in range(height):
+        row_slope = projection.rows[v]
+        x_row = rotation[0, 1] * row_slope + rotation[0, 2]
+        y_row = rotation[1, 1] * row_slope + rotation[1, 2]
+        z_row = rotation[2, 1] * row_slope + rotation[2, 2]
+        for u in range(width):
+            d = disparity[v, u]
+            if d < projection.smallest or d > largest:
+                continue
+            depth = projection.depths[d]
+            slope = projection.columns[u]
+            dx = depth * (rotation[0, 0] * slope + x_row)
+            dy = depth * (rotation[1, 0] * slope + y_row)
+            distance_squared = dx * dx + dy * dy
+            if distance_squared > reach_squared:
+                continue
+            z_slope = rotation[2, 0] * slope + z_row
+            x, y, z = position[0] + dx, position[1] + dy, position[2] + depth * z_slope
+            expected = gate.a * x + gate.b * y + gate.c
+            if abs(z - expected) > gate.height + gate.slope * math.sqrt(distance_squared):
+                continue
+            row = math.floor(x * per_cell) - cells.row0
+            column = math.floor(y * per_cell) - cells.column0
+            if row < 0 or row >= cells.size or column < 0 or column >= cells.size:
+                continue
+            index = row * cells.size + column
+            # A depth error moves the point along its ray; its height moves by the ray's vertical part.
+            sigma = projection.depth_sigmas[d] * z_slope
+            points.cell[listed] = index
+            points.height[listed] = z
+            points.variance[listed] = sigma * sigma
+            listed += 1
+            top[index] = max(top[index], z)
+    return listed
+
+
+@njit(cache=True)  # type: ignore[untyped-decorator]
+def _average_tops(
+    count: int, points: _Points, top: NDArray[np.float32], band: float, min_points: int
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Mean and variance of the points in the band under each cell's highest: its top without a maximum's bias."""
+    elevation = np.zeros(top.shape[0], dtype=np.float32)
+    variance = np.zeros(top.shape[0], dtype=np.float32)
+    number = np.zeros(top.shape[0], dtype=np.int32)
+    for k in range(count):
+        index = points.cell[k]
+        if points.height[k] >= top[index] - band:
+            elevation[index] += points.height[k]
+            variance[index] += points.variance[k]
+            number[index] += 1
+    for index in range(top.shape[0]):
+        n = number[index]
+        if n < min_points:
+            elevation[index] = np.nan
+            variance[index] = np.nan
+        else:
+            elevation[index] /= n
+            variance[index] /= n * (1.0 + (n - 1) / INDEPENDENT_POINTS)
+    return elevation, variance

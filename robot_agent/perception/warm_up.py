@@ -1,0 +1,31 @@
+"""Compiles what perception needs, so that no loop has to."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robot_agent.perception.terrain import TerrainPerception
+from robot_agent.vision.camera import StereoCalibration
+from weaver_shared.messages import OdometryEstimate, OdometryQuality, StereoFrame
+from weaver_shared.robots import load_robot
+
+
+def warm_up() -> None:
+    """Run perception once on a pair of pictures of noise."""
+    robot = load_robot()
+    picture = np.random.default_rng(0).integers(0, 255, (robot.camera.height, robot.camera.width), dtype=np.uint8)
+    frame = StereoFrame(stamp_ns=0, sequence=0, left=picture, right=np.roll(picture, -20, axis=1))
+    odometry = OdometryEstimate(
+        stamp_ns=0,
+        position_in_world=np.array([0.0, 0.0, robot.clearance]),
+        wxyz=np.array([1.0, 0.0, 0.0, 0.0]),
+        velocity_in_world=np.zeros(3),
+        angular_velocity_in_body=np.zeros(3),
+        gyro_bias=np.zeros(3),
+        accel_bias=np.zeros(3),
+        covariance=np.eye(6) * 1e-6,
+        quality=OdometryQuality.GOOD,
+        reason="",
+        tracked_features=100,
+    )
+    TerrainPerception(StereoCalibration.of_robot(robot)).step(frame, odometry)
