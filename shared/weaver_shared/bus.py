@@ -123,7 +123,7 @@ class ZenohBus:
             "mode": "peer",
             "listen/endpoints": list(listen),
             "connect/endpoints": list(connect),
-            "connect/timeout_ms": 0,
+            "connect/timeout_ms": -1,  # go on trying: 0 gives up for good when the other end starts later
             "connect/exit_on_failure": False,
             "connect/retry": {"period_init_ms": 200, "period_max_ms": 1000, "period_increase_factor": 1.5},
             "scouting/multicast/enabled": False,
