@@ -1,0 +1,38 @@
+"""Where the built page is, and what the console says without one."""
+
+from pathlib import Path
+
+_PACKAGE = Path(__file__).parent
+
+LOGIN = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Weaver Console: log in</title>
+<style>
+:root { color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif; }
+body { display: grid; place-items: center; min-height: 100vh; margin: 0; }
+form { display: grid; gap: 0.75rem; width: min(20rem, 90vw); }
+input, button { font: inherit; padding: 0.6rem 0.8rem; }
+</style></head><body><main><form method="post" action="/api/login">
+<h1>Weaver Console</h1>
+<label for="password">Password</label>
+<input id="password" name="password" type="password" autocomplete="current-password" autofocus required>
+<button type="submit">Log in</button>
+</form></main></body></html>
+"""
+
+NOT_BUILT = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>Weaver Console</title></head><body><main>
+<h1>The page is not built</h1>
+<p>The console runs, but its page has not been built yet. Start it with <code>./weaver up</code>, which builds the
+page, or run <code>npm ci</code> and <code>npm run build</code> in the folder <code>web</code>; then load this page
+again.</p>
+</main></body></html>
+"""
+
+
+def page_folder() -> Path | None:
+    """The page inside the package, else the build of a source tree, else None."""
+    for folder in (_PACKAGE / "_web", _PACKAGE.parent / "web" / "dist"):
+        if (folder / "index.html").is_file():
+            return folder
+    return None

@@ -1,0 +1,98 @@
+"""`weaver console`: the operator's console on its own."""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import logging
+import socket
+from pathlib import Path
+
+import uvicorn
+
+from weaver_console.access import Access
+from weaver_console.app import create_app
+from weaver_console.hub import Hub
+from weaver_console.link import Link
+from weaver_console.page_messages import LARGEST_FRAME
+from weaver_shared.bus import ZenohBus
+from weaver_shared.errors import ConfigurationError, ResourceError
+
+
+def main(arguments: list[str]) -> int:
+    options = _parser().parse_args(arguments)
+    logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
+    access = Access(host=options.host, password=_password(options.password_file))
+    listener = _listen(options.host, options.port)
+    try:
+        link = Link(ZenohBus(listen=options.listen or ["tcp/127.0.0.1:7447"], connect=options.connect or []))
+        app = create_app(Hub(link, scenes=not options.no_scene), access)
+        print(f"Weaver Console: {_address(options.host, listener)}", flush=True)
+        asyncio.run(_serve(app, listener))
+    finally:
+        listener.close()
+    return 0
+
+
+async def _serve(app: object, listener: socket.socket) -> None:
+    config = uvicorn.Config(
+        app,  # type: ignore[arg-type]
+        log_level="warning",
+        ws="websockets-sansio",
+        ws_max_size=LARGEST_FRAME,
+        ws_per_message_deflate=False,
+        ws_ping_interval=5.0,
+        ws_ping_timeout=20.0,
+        timeout_graceful_shutdown=2,
+        server_header=False,
+    )
+    await uvicorn.Server(config).serve(sockets=[listener])
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="weaver console", description="Serve the operator's page.")
+    parser.add_argument(
+        "--host", default="127.0.0.1", help="address to listen on; others than loopback need a password"
+    )
+    parser.add_argument("--port", type=int, default=8080, help="TCP port of the page, 0 for any free one (%(default)s)")
+    connect = "Zenoh endpoint of a robot or router, such as tcp/192.168.1.20:7447; may be repeated"
+    parser.add_argument("--connect", action="append", metavar="ENDPOINT", help=connect)
+    listen = "Zenoh endpoint to listen on (tcp/127.0.0.1:7447); may be repeated"
+    parser.add_argument("--listen", action="append", metavar="ENDPOINT", help=listen)
+    parser.add_argument("--password-file", type=Path, help="file whose first line is the password")
+    parser.add_argument("--no-scene", action="store_true", help="serve no 3-D view, only the 2-D map")
+    return parser
+
+
+def _password(path: Path | None) -> str:
+    if path is None:
+        return ""
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeError) as error:
+        raise ConfigurationError(f"the password file {path} can not be read: {error}") from error
+    if not lines or len(lines[0].strip()) < 8:
+        raise ConfigurationError(f"the password in the first line of {path} must have at least 8 characters")
+    return lines[0].strip()
+
+
+def _listen(host: str, port: int) -> socket.socket:
+    """A listening socket. Raises ResourceError when the port is taken."""
+    if not 0 <= port <= 65535:
+        raise ConfigurationError(f"port {port} is not valid; use 0 to 65535")
+    try:
+        address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
+        listener = socket.socket(address[0], socket.SOCK_STREAM)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind(address[4])
+        listener.listen(128)
+    except OSError as error:
+        raise ResourceError(
+            f"the console can not listen on {host} port {port}: {error.strerror or error}; choose another --port"
+        ) from error
+    return listener
+
+
+def _address(host: str, listener: socket.socket) -> str:
+    name = f"[{host}]" if ":" in host else host
+    return f"http://{name}:{listener.getsockname()[1]}/"

@@ -1,0 +1,132 @@
+"""What is new for one page since it was last told: values by newest-wins, events in order, the list of robots.
+
+The page's sender asks when it is ready, so a slow page skips values and holds up nobody.
+"""
+
+from __future__ import annotations
+
+from weaver_console.link import Link
+from weaver_console.plain import to_json
+from weaver_console.robot_record import RobotRecord, Value
+from weaver_console.roster import Roster
+
+PERIODS_NS = {
+    "tele/state": 50_000_000,
+    "tele/gait": 100_000_000,
+    "tele/adaptation": 100_000_000,
+    "tele/power": 200_000_000,
+    "tele/health/": 400_000_000,
+    "tele/odometry": 200_000_000,
+    "tele/terrain": 200_000_000,
+    "truth/state": 100_000_000,
+    "tele/map/tile/": 200_000_000,
+    "tele/cam/": 200_000_000,
+}
+"""Least time between two values of a key, by the key's beginning; others go at once."""
+
+LARGEST_BATCH = 256 * 1024
+"""Bytes after which further values wait for the next batch, so that a large map does not delay the state."""
+
+LINK_PERIOD_NS = 500_000_000
+SLACK_NS = 5_000_000
+"""A value this close to being due is sent now rather than a whole tick later."""
+
+
+class Feed:
+    def __init__(self, link: Link, roster: Roster) -> None:
+        self._link = link
+        self._roster = roster
+        self._roster_version = -1
+        self._event_number = 0
+        self._generation = 0
+        self._sent: dict[str, int] = {}
+        self._due_ns: dict[str, int] = {}
+        self._link_due_ns = 0
+        self.robot: str | None = None
+        self.cameras = False
+
+    def select(self, robot: str | None) -> None:
+        record = self._link.robot(robot) if robot is not None else None
+        self.robot = robot
+        self._sent, self._due_ns = {}, {}
+        self._link_due_ns = 0
+        self._generation = record.generation if record else 0
+
+    def past_events(self) -> bytes:
+        """The last events at once; later ones come one by one."""
+        events = self._link.events.latest()
+        self._event_number = events[-1].number if events else 0
+        return to_json({"type": "events", "events": [event.to_page() for event in events]})
+
+    def collect(self) -> list[bytes]:
+        """Encoded messages that are new and due now."""
+        now_ns = self._link.clock.now_ns()
+        messages: list[bytes] = []
+        if self._roster_version != self._roster.version:
+            self._roster_version = self._roster.version
+            messages.append(self._roster.json)
+        for event in self._link.events.since(self._event_number):
+            self._event_number = event.number
+            messages.append(to_json({"type": "event", **event.to_page()}))
+        record = self._link.robot(self.robot) if self.robot is not None else None
+        if record is not None:
+            messages += self._robot_messages(record, now_ns)
+        return messages
+
+    def _robot_messages(self, record: RobotRecord, now_ns: int) -> list[bytes]:
+        messages = []
+        with self._link.lock:
+            generation, values = record.generation, list(record.values.values())
+        if generation != self._generation:
+            self._generation = generation
+            self._sent, self._due_ns = {}, {}
+            messages.append(to_json({"type": "forget", "robot": record.robot_id, "keys": ["*"]}))
+        messages += self._values(record.robot_id, values, now_ns)
+        if now_ns >= self._link_due_ns:
+            self._link_due_ns = now_ns + LINK_PERIOD_NS
+            messages.append(to_json(_link_message(record, now_ns)))
+        return messages
+
+    def _values(self, robot: str, values: list[Value], now_ns: int) -> list[bytes]:
+        messages, size = [], 0
+        for value in values:
+            if value.version <= self._sent.get(value.key, 0) or size > LARGEST_BATCH:
+                continue
+            if now_ns + SLACK_NS < self._due_ns.get(value.key, 0) or (not self.cameras and "tele/cam/" in value.key):
+                continue
+            message = _value_message(robot, value, now_ns)
+            self._sent[value.key] = value.version
+            self._due_ns[value.key] = now_ns + _period_ns(value.key)
+            messages.append(message)
+            size += len(message)
+        return messages
+
+
+def _period_ns(key: str) -> int:
+    for beginning, period in PERIODS_NS.items():
+        if key.startswith(beginning):
+            return period
+    return 0
+
+
+def _value_message(robot: str, value: Value, now_ns: int) -> bytes:
+    head = {
+        "type": "value",
+        "robot": robot,
+        "key": value.key,
+        "kind": type(value.message).__name__,
+        "stamp_ns": getattr(value.message, "stamp_ns", 0),
+        "age_s": round((now_ns - value.received_ns) * 1e-9, 4),
+    }
+    return to_json(head)[:-1] + b',"value":' + value.json + b"}"
+
+
+def _link_message(record: RobotRecord, now_ns: int) -> dict[str, object]:
+    age = record.heartbeat_age(now_ns)
+    return {
+        "type": "link",
+        "robot": record.robot_id,
+        "alive": record.alive,
+        "heartbeat_age_s": None if age is None else round(age, 3),
+        "rates": {key: round(rate, 1) for key, rate in record.rates.items() if "/tile/" not in key},
+    }

@@ -1,0 +1,135 @@
+"""All pages of a console: who is connected, their scenes, and the two clocks that keep both up to date."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import random
+import threading
+import time
+
+from weaver_console import operator_names
+from weaver_console.command_desk import CommandDesk
+from weaver_console.link import Link
+from weaver_console.page_session import PageSession
+from weaver_console.roster import Roster
+from weaver_console.scene.page_scene import PageScene
+from weaver_console.scene.terrain_figure import MeshStore
+
+logger = logging.getLogger(__name__)
+
+CHECK_PERIOD = 0.1
+SCENE_PERIOD = 0.04
+"""25 Hz for the robot in the 3-D views."""
+
+SCENE_KEPT = 10.0
+"""Seconds that the 3-D view of a page outlives its connection, so that a short break does not redraw it."""
+
+
+class Hub:
+    def __init__(self, link: Link, *, scenes: bool = True, random_source: random.Random | None = None) -> None:
+        self.link = link
+        self.roster = Roster(link)
+        self.with_scenes = scenes
+        self.started = time.monotonic()
+        self._desk = CommandDesk(link)
+        self._random = random_source or random.Random()
+        self._sessions: dict[str, PageSession] = {}
+        self._scenes: dict[str, PageScene] = {}
+        self._orphaned: dict[str, float] = {}
+        self._store = MeshStore()
+        self._stopping = threading.Event()
+        self._drawer = threading.Thread(target=self._draw, name="scenes", daemon=True)
+
+    @property
+    def pages(self) -> int:
+        return len(self._sessions)
+
+    def start(self) -> None:
+        self._drawer.start()
+
+    async def keep_checking(self) -> None:
+        """Watch the robots and close the scenes of pages that have gone, until cancelled."""
+        while True:
+            self.link.check()
+            self.roster.refresh()
+            self._close_orphans()
+            await asyncio.sleep(CHECK_PERIOD)
+
+    def stop(self) -> None:
+        self._stopping.set()
+        if self._drawer.is_alive():
+            self._drawer.join(timeout=2.0)
+        for scene in self._scenes.values():
+            scene.close()
+        self._scenes.clear()
+        self._desk.close()
+
+    def enter(self, page: str, operator: str) -> PageSession:
+        """A page connects, or again with the same id; an empty operator gets an invented name."""
+        taken = {session.operator for name, session in self._sessions.items() if name != page}
+        if operator:
+            name = operator_names.distinct(operator_names.valid(operator), taken)
+        else:
+            name = operator_names.invent(taken, self._random)
+        session = PageSession(page=page, operator=name, link=self.link, roster=self.roster, desk=self._desk)
+        self._sessions[page] = session
+        self._orphaned.pop(page, None)
+        session.greet(with_scene=self.with_scenes)
+        return session
+
+    def leave(self, session: PageSession) -> None:
+        session.end()
+        if self._sessions.get(session.page) is session:
+            del self._sessions[session.page]
+            self._orphaned[session.page] = time.monotonic()
+
+    def current(self, session: PageSession) -> bool:
+        """False once the same page has connected anew."""
+        return self._sessions.get(session.page) is session
+
+    def scene(self, page: str) -> PageScene | None:
+        """The page's 3-D view, opened at its first use; None for a page that is not connected."""
+        session = self._sessions.get(page)
+        if session is None or not self.with_scenes:
+            return None
+        scene = self._scenes.get(page)
+        if scene is None:
+            scene = PageScene(
+                self._store,
+                on_pick=lambda point: self._tell(page, "pick", point),
+                on_legend=lambda scale: self._tell(page, "show_legend", scale),
+            )
+            self._scenes[page] = scene
+        if session.scene is not scene:
+            session.scene = scene
+            scene.wish(**session.wishes)
+        return scene
+
+    def _tell(self, page: str, what: str, *arguments: object) -> None:
+        session = self._sessions.get(page)
+        if session is not None:
+            getattr(session, what)(*arguments)
+
+    def _close_orphans(self) -> None:
+        for page, since in list(self._orphaned.items()):
+            if time.monotonic() - since > SCENE_KEPT:
+                del self._orphaned[page]
+                scene = self._scenes.pop(page, None)
+                if scene is not None:
+                    threading.Thread(target=scene.close, daemon=True).start()
+
+    def _draw(self) -> None:
+        """Keep every watched scene up to date; a fault in one is logged once and ends neither it nor the others."""
+        faulty: set[str] = set()
+        while not self._stopping.wait(SCENE_PERIOD):
+            for page, scene in list(self._scenes.items()):
+                session = self._sessions.get(page)
+                if session is None or not scene.watched:
+                    continue
+                try:
+                    scene.update(self.link.robot(session.robot) if session.robot is not None else None)
+                except Exception:
+                    if page not in faulty:
+                        faulty.add(page)
+                        logger.exception("the 3-D view of page %s was not drawn completely", page)

@@ -1,0 +1,155 @@
+"""The console's end of the bus: every robot that is there, by itself, with its newest values."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from typing import Any
+
+from weaver_console.event_log import EventLog
+from weaver_console.robot_record import RobotRecord
+from weaver_shared import topics
+from weaver_shared.bus import Bus
+from weaver_shared.clock import Clock, MonotonicClock
+from weaver_shared.errors import ConfigurationError
+from weaver_shared.messages import Answer, Command, Event, Heartbeat, Presence, Severity, TeleopFrame
+from weaver_shared.robots import RobotDescription, load_robot
+from weaver_shared.topics import Topic
+
+logger = logging.getLogger(__name__)
+
+WATCHED: tuple[Topic, ...] = (
+    topics.STATE,
+    topics.GAIT,
+    topics.ADAPTATION,
+    topics.POWER,
+    topics.HEALTH,
+    topics.MAP_TILE,
+    topics.CAMERA,
+    topics.ODOMETRY,
+    topics.TERRAIN,
+    topics.MODE,
+    topics.LEASE,
+    topics.MISSION,
+    topics.TRUTH,
+)
+"""Topics whose newest values the console keeps; presence, heartbeat and events are handled on their own."""
+
+
+class Link:
+    """Threads: the bus calls in from its own; pages and scenes read under `lock` or through the methods here."""
+
+    def __init__(self, bus: Bus, *, clock: Clock | None = None, events: EventLog | None = None) -> None:
+        self.bus = bus
+        self.clock = clock or MonotonicClock()
+        self.events = events or EventLog()
+        self.lock = threading.RLock()
+        self._records: dict[str, RobotRecord] = {}
+        self._rates_ns = self.clock.now_ns()
+
+    def open(self) -> None:
+        """Subscribe to all robots; values come in from now on."""
+        self.bus.subscribe("*", topics.PRESENCE, self._receive_presence)
+        self.bus.subscribe("*", topics.HEARTBEAT, self._receive_heartbeat)
+        self.bus.subscribe("*", topics.EVENT, self._receive_event)
+        for topic in WATCHED:
+            self.bus.subscribe("*", topic, self._receive)
+        self.bus.watch(self._process_changed)
+
+    def close(self) -> None:
+        self.bus.close()
+
+    def robots(self) -> list[RobotRecord]:
+        with self.lock:
+            return [self._records[name] for name in sorted(self._records)]
+
+    def robot(self, robot_id: str) -> RobotRecord | None:
+        with self.lock:
+            return self._records.get(robot_id)
+
+    def request(self, robot_id: str, command: Command, timeout: float) -> Answer:
+        return self.bus.request(robot_id, command, timeout)
+
+    def teleoperate(self, robot_id: str, frame: TeleopFrame) -> None:
+        self.bus.publish(robot_id, topics.TELEOP, frame)
+
+    def check(self) -> None:
+        """Notice lost and returned robots and measure rates; called about ten times a second."""
+        now_ns = self.clock.now_ns()
+        with self.lock:
+            for record in self._records.values():
+                self._check_heartbeat(record, now_ns)
+            elapsed = (now_ns - self._rates_ns) * 1e-9
+            if elapsed >= 1.0:
+                self._rates_ns = now_ns
+                for record in self._records.values():
+                    record.measure_rates(elapsed)
+
+    def _check_heartbeat(self, record: RobotRecord, now_ns: int) -> None:
+        heard = record.heard(now_ns)
+        if heard == record.alive:
+            return
+        record.alive = heard
+        if heard:
+            self.events.add(record.robot_id, Severity.INFO, "console", f"{record.robot_id} is connected")
+        else:
+            text = f"{record.robot_id} is lost: no heartbeat for 1 s"
+            self.events.add(record.robot_id, Severity.ERROR, "console", text)
+
+    def _record(self, robot_id: str) -> RobotRecord:
+        record = self._records.get(robot_id)
+        if record is None:
+            record = RobotRecord(robot_id=robot_id, first_heard_ns=self.clock.now_ns())
+            self._records[robot_id] = record
+        return record
+
+    def _receive(self, robot_id: str, key: str, message: Any) -> None:
+        with self.lock:
+            self._record(robot_id).keep(key, message, self.clock.now_ns())
+
+    def _receive_presence(self, robot_id: str, key: str, presence: Presence) -> None:
+        with self.lock:
+            record = self._record(robot_id)
+            if presence.session in record.former_sessions:
+                return
+            self._note_restart(record, record.begin_session(presence.session))
+            if presence != record.presence:
+                record.presence = presence
+                record.description = _description(presence.robot)
+
+    def _receive_heartbeat(self, robot_id: str, key: str, heartbeat: Heartbeat) -> None:
+        now_ns = self.clock.now_ns()
+        with self.lock:
+            record = self._record(robot_id)
+            conflict = record.conflict(now_ns)
+            self._note_restart(record, record.beat(heartbeat, now_ns))
+            if not conflict and record.conflict(now_ns):
+                self.events.add(robot_id, Severity.ERROR, "console", record.conflict(now_ns))
+
+    def _note_restart(self, record: RobotRecord, restarted: bool) -> None:
+        if restarted:
+            text = f"{record.robot_id} has started anew; its map and mission are new"
+            self.events.add(record.robot_id, Severity.WARNING, "console", text)
+
+    def _receive_event(self, robot_id: str, key: str, event: Event) -> None:
+        self.events.add(robot_id, event.severity, event.source, event.text, stamp_ns=event.stamp_ns)
+
+    def _process_changed(self, robot_id: str, process: str, came: bool) -> None:
+        with self.lock:
+            record = self._record(robot_id)
+            if came == (process in record.processes):
+                return
+            if came:
+                record.processes.add(process)
+                self.events.add(robot_id, Severity.INFO, "console", f"process {process} of {robot_id} is there")
+            else:
+                record.processes.discard(process)
+                self.events.add(robot_id, Severity.ERROR, "console", f"process {process} of {robot_id} is gone")
+
+
+def _description(name: str) -> RobotDescription | None:
+    try:
+        return load_robot(name)
+    except ConfigurationError as error:
+        logger.warning("a robot is shown without its figure: %s", error)
+        return None

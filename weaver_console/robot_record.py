@@ -1,0 +1,121 @@
+"""What the console knows of one robot: its newest values, who it is and whether it is heard."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from weaver_console.plain import plain, to_json
+from weaver_console.scene.ground import Ground
+from weaver_shared.messages import Heartbeat, LeaseState, MapTile, MissionState, ModeState, Presence
+from weaver_shared.robots import RobotDescription
+
+M = TypeVar("M")
+
+HEARTBEAT_TIMEOUT_NS = 1_000_000_000
+"""Silence after which a robot counts as lost."""
+
+CONFLICT_NS = 2_000_000_000
+"""How long a second robot with the same id is reported after its last heartbeat."""
+
+
+class Value:
+    """The newest message of a key. `version` grows with every message of the robot, so readers see what is new."""
+
+    __slots__ = ("_json", "key", "message", "received_ns", "version")
+
+    def __init__(self, *, key: str, message: Any, received_ns: int, version: int) -> None:
+        self.key = key
+        self.message = message
+        self.received_ns = received_ns
+        self.version = version
+        self._json: bytes | None = None
+
+    @property
+    def json(self) -> bytes:
+        """Encoded once, however many pages watch."""
+        if self._json is None:
+            self._json = to_json(plain(self.message))
+        return self._json
+
+
+@dataclass(slots=True)
+class RobotRecord:
+    robot_id: str
+    first_heard_ns: int
+    presence: Presence | None = None
+    description: RobotDescription | None = None
+    processes: set[str] = field(default_factory=set)
+    values: dict[str, Value] = field(default_factory=dict)
+    ground: Ground = field(default_factory=Ground)
+    session: str = ""
+    heartbeat_ns: int | None = None
+    alive: bool = False
+    former_sessions: set[str] = field(default_factory=set)
+    intruder_ns: int | None = None
+    generation: int = 0  # counts the robot's starts; values of former ones are void
+    version: int = 0
+    counts: dict[str, int] = field(default_factory=dict)  # messages received by key since the last rates
+    rates: dict[str, float] = field(default_factory=dict)  # Hz by key
+
+    def keep(self, key: str, message: Any, now_ns: int) -> None:
+        self.version += 1
+        self.values[key] = Value(key=key, message=message, received_ns=now_ns, version=self.version)
+        self.counts[key] = self.counts.get(key, 0) + 1
+        if isinstance(message, MapTile):
+            self.ground.put(message)
+
+    def beat(self, heartbeat: Heartbeat, now_ns: int) -> bool:
+        """Count a heartbeat; True when it is the first of a new session of the robot."""
+        if heartbeat.session in self.former_sessions:
+            self.intruder_ns = now_ns
+            return False
+        self.heartbeat_ns = now_ns
+        self.counts["hb"] = self.counts.get("hb", 0) + 1
+        return self.begin_session(heartbeat.session)
+
+    def begin_session(self, session: str) -> bool:
+        """Forget what a former start of the robot said; True if it was another start."""
+        if session == self.session or session in self.former_sessions:
+            return False
+        restarted = bool(self.session)
+        if restarted:
+            self.former_sessions.add(self.session)
+            self.values.clear()
+            self.ground = Ground()
+            self.generation += 1
+        self.session = session
+        return restarted
+
+    def measure_rates(self, elapsed: float) -> None:
+        """Turn the counts of the last `elapsed` s into rates."""
+        self.rates = {key: count / elapsed for key, count in self.counts.items()}
+        self.counts = dict.fromkeys(self.counts, 0)
+
+    def heartbeat_age(self, now_ns: int) -> float | None:
+        """Seconds since the last heartbeat, None before the first."""
+        return None if self.heartbeat_ns is None else (now_ns - self.heartbeat_ns) * 1e-9
+
+    def heard(self, now_ns: int) -> bool:
+        return self.heartbeat_ns is not None and now_ns - self.heartbeat_ns < HEARTBEAT_TIMEOUT_NS
+
+    def conflict(self, now_ns: int) -> str:
+        if self.intruder_ns is None or now_ns - self.intruder_ns > CONFLICT_NS:
+            return ""
+        return f"two robots answer to the id {self.robot_id!r}; stop one of them or start it with another id"
+
+    @property
+    def mode(self) -> ModeState | None:
+        return self.newest("state/mode", ModeState)
+
+    @property
+    def lease(self) -> LeaseState | None:
+        return self.newest("state/lease", LeaseState)
+
+    @property
+    def mission(self) -> MissionState | None:
+        return self.newest("state/mission", MissionState)
+
+    def newest(self, key: str, kind: type[M]) -> M | None:
+        value = self.values.get(key)
+        return value.message if value is not None and isinstance(value.message, kind) else None

@@ -1,0 +1,65 @@
+"""The list of robots as the page and the read-only API show it."""
+
+from __future__ import annotations
+
+import msgspec
+
+from weaver_console.link import Link
+from weaver_console.plain import to_json
+from weaver_console.robot_record import RobotRecord
+from weaver_shared.config.adaptation import AdaptationConfig
+
+_UNITS = {"virtual_stiffness": "N/m", "stride_frequency": "Hz", "stride_height": "m"}
+
+
+def describe(record: RobotRecord, now_ns: int) -> dict[str, object]:
+    """One robot for the list; see docs/console_protocol.md."""
+    presence, robot, mode, lease = record.presence, record.description, record.mode, record.lease
+    age = record.heartbeat_age(now_ns)
+    return {
+        "id": record.robot_id,
+        "session": record.session,
+        "kind": presence.kind if presence else "",
+        "robot": presence.robot if presence else "",
+        "world": presence.world if presence else "",
+        "alive": record.alive,
+        "heartbeat_age_s": None if age is None else round(age, 3),
+        "processes": sorted(record.processes),
+        "mode": mode.mode if mode else "",
+        "stopped": mode.stopped if mode else False,
+        "holder": lease.holder if lease else "",
+        "leg_names": list(robot.leg_names) if robot else [],
+        "joint_names": list(robot.joint_names) if robot else [],
+        "joint_limits": robot.joint_limits.tolist() * robot.leg_count if robot else [],
+        "gaits": list(robot.gaits) if robot else [],
+        "parameters": _parameters(),
+        "conflict": record.conflict(now_ns),
+    }
+
+
+def _parameters() -> dict[str, dict[str, object]]:
+    """Bounds and units of what an operator may override."""
+    config = AdaptationConfig()
+    bounds = {name: getattr(config, name) for name in _UNITS}
+    return {name: {"lower": b.lower, "upper": b.upper, "unit": _UNITS[name]} for name, b in bounds.items()}
+
+
+class Roster:
+    """The encoded list and a number that grows with every change that matters."""
+
+    def __init__(self, link: Link) -> None:
+        self._link = link
+        self.version = 0
+        self.json = to_json({"type": "robots", "robots": []})
+        self._compared: bytes | None = None
+
+    def refresh(self) -> None:
+        """Look again; called about ten times a second."""
+        now_ns = self._link.clock.now_ns()
+        with self._link.lock:
+            robots = [describe(record, now_ns) for record in self._link.robots()]
+        compared = msgspec.json.encode([{**robot, "heartbeat_age_s": None} for robot in robots])
+        if compared != self._compared:
+            self._compared = compared
+            self.json = to_json({"type": "robots", "robots": robots})
+            self.version += 1

@@ -1,0 +1,144 @@
+"""What moves with the robot besides its links: support polygon, foot forces, look-ahead, trail, covariance, truth."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weaver_shared.messages import MissionState, OdometryEstimate, RobotState, TruthState
+from weaver_shared.robots import RobotDescription
+from weaver_shared.transforms import Pose
+
+Array = NDArray[np.float64]
+
+FORCE_SCALE = 0.004
+"""Metres of line per newton."""
+
+TRAIL_STEP = 0.04
+LONGEST_TRAIL = 1500
+SIGMAS = 3.0
+
+_SUPPORT = (52, 199, 129)
+_UNSTABLE = (239, 83, 80)
+_FORCE = (120, 200, 255)
+_LOOKAHEAD = (64, 156, 255)
+_TRAIL = (170, 180, 196)
+_COVARIANCE = (190, 140, 255)
+_TRUTH = (255, 255, 255)
+
+
+class Lines:
+    """Line segments that may be none: a node is hidden while it has nothing to show."""
+
+    def __init__(self, scene: Any, name: str, colour: tuple[int, int, int], thickness: float = 0.008) -> None:
+        self._node = scene.add_line_segments(name, np.zeros((1, 2, 3), np.float32), colour, thickness=thickness)
+        self._node.visible = False
+
+    def show(self, segments: Array) -> None:
+        """Segments (n, 2, 3)."""
+        if len(segments):
+            self._node.points = segments.astype(np.float32)
+        self._node.visible = len(segments) > 0
+
+    def colour(self, colour: tuple[int, int, int]) -> None:
+        self._node.colors = np.array(colour, dtype=np.uint8)
+
+    def chain(self, points: Array) -> None:
+        """One line through points (n, 3)."""
+        self.show(np.stack([points[:-1], points[1:]], axis=1) if len(points) > 1 else np.zeros((0, 2, 3)))
+
+
+class MotionFigure:
+    def __init__(self, scene: Any, name: str, robot: RobotDescription) -> None:
+        self._robot = robot
+        self._support = Lines(scene, f"{name}/support", _SUPPORT)
+        self._forces = Lines(scene, f"{name}/forces", _FORCE)
+        self._lookahead = Lines(scene, f"{name}/lookahead", _LOOKAHEAD)
+        self._trail_line = Lines(scene, f"{name}/trail", _TRAIL)
+        self._covariance = Lines(scene, f"{name}/covariance", _COVARIANCE)
+        self._truth = scene.add_frame(f"{name}/truth", show_axes=False, visible=False)
+        box = Lines(scene, f"{name}/truth/outline", _TRUTH, thickness=0.006)
+        box.show(_box_edges(robot))
+        self._trail: list[Array] = []
+        self._stable: bool | None = None
+
+    def update(self, state: RobotState) -> None:
+        world_from_body = Pose.of(state.position_in_world, state.wxyz)
+        feet = world_from_body.transform(state.foot_in_body)
+        standing = feet[state.foot_contact]
+        self._support.chain(_closed_hull(standing))
+        self._colour_support(state.stability_margin > 0.0)
+        force = np.clip(state.foot_force, 0.0, 200.0)[:, None] * np.array([0.0, 0.0, FORCE_SCALE])
+        self._forces.show(np.stack([feet, feet + force], axis=1)[state.foot_contact & (state.foot_force > 1.0)])
+        self._extend_trail(state.position_in_world)
+
+    def lookahead(self, state: RobotState, mission: MissionState | None) -> None:
+        if mission is None or not np.isfinite(mission.lookahead_in_world).all():
+            self._lookahead.show(np.zeros((0, 2, 3)))
+            return
+        begin = state.position_in_world
+        self._lookahead.chain(np.array([begin, [*mission.lookahead_in_world, begin[2]]]))
+
+    def covariance(self, odometry: OdometryEstimate) -> None:
+        """Three-sigma ellipse of the horizontal position."""
+        matrix = odometry.covariance[3:5, 3:5]
+        if not np.isfinite(matrix).all():
+            self._covariance.show(np.zeros((0, 2, 3)))
+            return
+        values, vectors = np.linalg.eigh(matrix)
+        radii = SIGMAS * np.sqrt(np.clip(values, 0.0, 4.0))
+        angles = np.linspace(0.0, 2.0 * np.pi, 33)
+        ellipse = (vectors * radii) @ np.stack([np.cos(angles), np.sin(angles)])
+        self._covariance.chain(np.column_stack([ellipse.T, np.zeros(33)]) + odometry.position_in_world)
+
+    def truth(self, truth: TruthState | None) -> None:
+        self._truth.visible = truth is not None
+        if truth is not None:
+            self._truth.position, self._truth.wxyz = truth.position_in_world, truth.wxyz
+
+    def show_trail(self, wanted: bool) -> None:
+        self._trail_line.chain(np.array(self._trail) if wanted and self._trail else np.zeros((0, 3)))
+
+    def _extend_trail(self, position: Array) -> None:
+        if self._trail and float(np.linalg.norm(position - self._trail[-1])) < TRAIL_STEP:
+            return
+        self._trail = [*self._trail[-LONGEST_TRAIL:], np.array(position)]
+        self.show_trail(True)
+
+    def _colour_support(self, stable: bool) -> None:
+        if stable is not self._stable:
+            self._stable = stable
+            self._support.colour(_SUPPORT if stable else _UNSTABLE)
+
+
+def _closed_hull(points: Array) -> Array:
+    """Corners of the horizontal convex hull in order, the first repeated, (n, 3); empty below three points."""
+    if len(points) < 3:
+        return np.zeros((0, 3))
+    order = points[np.lexsort((points[:, 1], points[:, 0]))]
+    hull = _half_hull(order)[:-1] + _half_hull(order[::-1])[:-1]
+    return np.array([*hull, hull[0]])
+
+
+def _half_hull(points: Array) -> list[Array]:
+    """Andrew's monotone chain: the hull's lower side for points sorted by x."""
+    hull: list[Array] = []
+    for point in points:
+        while len(hull) > 1 and _turn(hull[-2], hull[-1], point) <= 0.0:
+            hull.pop()
+        hull.append(point)
+    return hull
+
+
+def _turn(a: Array, b: Array, c: Array) -> float:
+    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+
+
+def _box_edges(robot: RobotDescription) -> Array:
+    """The twelve edges of the trunk, (12, 2, 3) in body."""
+    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    corners = np.asarray(robot.body.box_in_body) + 0.5 * signs * np.asarray(robot.body.size)
+    pairs = [(a, b) for a in range(8) for b in range(a + 1, 8) if np.abs(signs[a] - signs[b]).sum() == 2]
+    return np.array([[corners[a], corners[b]] for a, b in pairs])

@@ -1,0 +1,239 @@
+"""The three-dimensional view of one page: its robot, its layer, its draft, its clicks.
+
+Each page has a viser server of its own (5 ms to start, one thread), so that a click is known to be this page's and
+nothing one operator chooses shows up at another's.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import logging
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from weaver_console.robot_record import RobotRecord
+from weaver_console.scene.ground import Ground
+from weaver_console.scene.layers import Legend
+from weaver_console.scene.mission_figure import Course, MissionFigure
+from weaver_console.scene.motion_figure import MotionFigure
+from weaver_console.scene.robot_figure import RobotFigure
+from weaver_console.scene.terrain_figure import MeshStore, TerrainFigure
+from weaver_shared.bus import free_port
+from weaver_shared.messages import OdometryEstimate, RobotState, TruthState, Waypoint
+from weaver_shared.robots import RobotDescription
+
+logger = logging.getLogger(__name__)
+
+Array = NDArray[np.float64]
+
+ACCEPTANCE_RADIUS = 0.15
+CAMERA_BEHIND = np.array([-1.6, -1.1, 1.1])
+FOLLOW_STEP = 0.02
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wishes:
+    """What the page wants to see."""
+
+    layer: str = "elevation"
+    draft: tuple[Waypoint, ...] = ()
+    selected: int | None = None
+    follow: bool = False
+    truth: bool = True
+    frusta: bool = True
+    trail: bool = True
+
+
+@dataclass(slots=True)
+class _Shown:
+    """Everything drawn for one robot; thrown away as a whole when another is selected."""
+
+    record_key: tuple[str, int]
+    robot: RobotDescription | None
+    root: Any
+    figure: RobotFigure | None
+    motion: MotionFigure | None
+    terrain: TerrainFigure
+    mission: MissionFigure
+    frustum: Any = None
+    followed: Array | None = None
+    versions: dict[str, int] = field(default_factory=dict)
+
+
+class PageScene:
+    """`on_pick` is called, in a thread of viser's, with a point (3,) in world or None for a click beside the ground."""
+
+    def __init__(self, store: MeshStore, *, on_pick: Callable[[Array | None], None],
+                 on_legend: Callable[[Legend], None]) -> None:  # fmt: skip
+        self._store = store
+        self._on_pick = on_pick
+        self._on_legend = on_legend
+        self._wishes = Wishes()
+        self._lock = threading.Lock()
+        self._shown: _Shown | None = None
+        self._ground: Ground | None = None
+        with contextlib.redirect_stdout(io.StringIO()):  # viser prints its address, which is not for people
+            self._server = viser.ViserServer(host="127.0.0.1", port=free_port(), verbose=False)
+        self.port: int = self._server.get_port()
+        self._set_stage()
+
+    @property
+    def watched(self) -> bool:
+        return bool(self._server.get_clients())
+
+    def wish(self, **changes: Any) -> None:
+        with self._lock:
+            self._wishes = replace(self._wishes, **changes)
+
+    def propose(self, draft: Sequence[Waypoint], selected: int | None) -> None:
+        self.wish(draft=tuple(draft), selected=selected)
+
+    def close(self) -> None:
+        with contextlib.redirect_stdout(io.StringIO()):
+            self._server.stop()
+
+    def update(self, record: RobotRecord | None) -> None:
+        """Draw what is new of the selected robot; called some 25 times a second, by one thread."""
+        if record is None:
+            self._drop()
+            return
+        shown = self._for(record)
+        with self._lock:
+            wishes = self._wishes
+        self._ground = record.ground
+        if shown.terrain.update(record.ground, wishes.layer):
+            self._on_legend(shown.terrain.legend)
+        with self._server.atomic():
+            self._update_robot(shown, record, wishes)
+        state = record.newest("tele/state", RobotState)
+        mission = record.mission
+        shown.mission.update(
+            record.ground,
+            None if state is None else state.position_in_world,
+            Course.sent(mission.waypoints, mission.next_waypoint) if mission is not None else Course.sent((), 0),
+            Course.draft(wishes.draft, wishes.selected),
+        )
+        if wishes.follow and state is not None:
+            self._follow(shown, state.position_in_world)
+        else:
+            shown.followed = None
+
+    @property
+    def legend(self) -> Legend | None:
+        return self._shown.terrain.legend if self._shown is not None else None
+
+    def _update_robot(self, shown: _Shown, record: RobotRecord, wishes: Wishes) -> None:
+        state = record.newest("tele/state", RobotState)
+        if state is None or shown.figure is None or shown.motion is None or not _drawable(state, shown.robot):
+            return
+        if _new(shown, record, "tele/state"):
+            shown.figure.update(state.position_in_world, state.wxyz, state.joint_position, state.foot_contact)
+            shown.motion.update(state)
+            shown.motion.lookahead(state, record.mission)
+        odometry = record.newest("tele/odometry", OdometryEstimate)
+        if odometry is not None and _new(shown, record, "tele/odometry"):
+            shown.motion.covariance(odometry)
+        shown.motion.truth(record.newest("truth/state", TruthState) if wishes.truth else None)
+        shown.frustum.visible = wishes.frusta
+        if _changed(shown, "trail", int(wishes.trail)):
+            shown.motion.show_trail(wishes.trail)
+
+    def _for(self, record: RobotRecord) -> _Shown:
+        key = (record.robot_id, record.generation)
+        shown = self._shown
+        if shown is not None and shown.record_key == key and shown.robot is record.description:
+            return shown
+        self._drop()
+        scene, robot = self._server.scene, record.description
+        root = scene.add_frame("/world", show_axes=False)
+        figure = RobotFigure(scene, "/world/robot", robot) if robot is not None else None
+        self._shown = _Shown(
+            record_key=key,
+            robot=robot,
+            root=root,
+            figure=figure,
+            motion=MotionFigure(scene, "/world/motion", robot) if robot is not None else None,
+            terrain=TerrainFigure(scene, "/world/terrain", self._store),
+            mission=MissionFigure(scene, "/world/mission", acceptance_radius=ACCEPTANCE_RADIUS),
+        )
+        if robot is not None:
+            self._shown.frustum = _add_frustum(scene, robot)
+        return self._shown
+
+    def _drop(self) -> None:
+        if self._shown is not None:
+            self._shown.root.remove()
+            self._shown = None
+            self._ground = None
+
+    def _set_stage(self) -> None:
+        scene = self._server.scene
+        scene.set_up_direction("+z")
+        scene.configure_environment_map(None)
+        scene.configure_default_lights(enabled=True, cast_shadow=False)
+        self._server.gui.configure_theme(dark_mode=True, show_share_button=False, show_logo=False)
+        scene.add_grid("/grid", width=40.0, height=40.0, cell_size=1.0, section_size=5.0, position=(0.0, 0.0, -0.02))
+        self._server.initial_camera.position = tuple(CAMERA_BEHIND)
+        self._server.initial_camera.look_at = (0.6, 0.0, 0.0)
+        self._server.scene.on_click()(self._clicked)
+
+    def _clicked(self, event: Any) -> None:
+        ground = self._ground
+        grid = ground.grid() if ground is not None else None
+        try:
+            point = None
+            if grid is not None:
+                point = grid.meet(np.array(event.ray_origin), np.array(event.ray_direction))
+            self._on_pick(point)
+        except Exception:
+            logger.exception("a click in the scene was lost")
+
+    def _follow(self, shown: _Shown, position: Array) -> None:
+        """Move the cameras along with the robot; the operator goes on turning and zooming them."""
+        if shown.followed is None:
+            shown.followed = position
+            return
+        moved = position - shown.followed
+        if float(np.linalg.norm(moved)) < FOLLOW_STEP:
+            return
+        shown.followed = position
+        for client in self._server.get_clients().values():
+            client.camera.position = client.camera.position + moved
+
+
+def _add_frustum(scene: Any, robot: RobotDescription) -> Any:
+    camera = robot.camera
+    pose = camera.body_from_left
+    return scene.add_camera_frustum(
+        "/world/robot/left_eye", fov=float(2.0 * np.arctan(0.5 * camera.height / camera.focal_length)),
+        aspect=camera.width / camera.height, scale=0.12, thickness=0.004, color=(150, 160, 175), wxyz=pose.wxyz,
+        position=pose.position, cast_shadow=False, receive_shadow=False,
+    )  # fmt: skip
+
+
+def _drawable(state: RobotState, robot: RobotDescription | None) -> bool:
+    """Whether the state fits the description and holds numbers: another program's robot may not crash the scene."""
+    if robot is None or state.joint_position.shape != (robot.joint_count,):
+        return False
+    if state.foot_in_body.shape != (robot.leg_count, 3) or state.foot_contact.shape != (robot.leg_count,):
+        return False
+    numbers = (state.position_in_world, state.wxyz, state.joint_position, state.foot_in_body)
+    return all(bool(np.isfinite(part).all()) for part in numbers) and bool(np.any(state.wxyz))
+
+
+def _new(shown: _Shown, record: RobotRecord, key: str) -> bool:
+    return _changed(shown, key, record.values[key].version)
+
+
+def _changed(shown: _Shown, key: str, version: int) -> bool:
+    if shown.versions.get(key) == version:
+        return False
+    shown.versions[key] = version
+    return True

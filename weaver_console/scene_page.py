@@ -1,0 +1,41 @@
+"""viser's own page with what an iframe needs: keys for the page around it, reconnection, and taps as clicks."""
+
+from __future__ import annotations
+
+import gzip
+from functools import cache
+from pathlib import Path
+
+import viser
+
+SHIM = """<script>
+(() => {
+  "use strict";
+  // Keys pressed in the 3-D view never reach the page around it, and with them Escape and Space, which stop the robot.
+  const forward = (event) => window.parent.postMessage({
+    source: "weaver-scene", type: "key", event: event.type, key: event.key, code: event.code, repeat: event.repeat,
+    ctrlKey: event.ctrlKey, shiftKey: event.shiftKey, altKey: event.altKey, metaKey: event.metaKey,
+  }, window.location.origin);
+  window.addEventListener("keydown", forward, true);
+  window.addEventListener("keyup", forward, true);
+  // viser reconnects only while its document has the focus, which inside an iframe it seldom has.
+  document.hasFocus = () => true;
+  // A touch is captured by what it began on, and viser then takes a tap for no click.
+  window.addEventListener("pointerdown", (event) => {
+    if (event.pointerType === "touch" && event.target.hasPointerCapture?.(event.pointerId)) {
+      event.target.releasePointerCapture(event.pointerId);
+    }
+  }, true);
+})();
+</script>"""
+
+STYLE = "<style>html, body { background: #14171b; }</style>"
+
+
+@cache
+def scene_page() -> bytes:
+    """The page as gzip."""
+    built = Path(viser.__file__).parent / "client" / "build" / "index.html"
+    text = built.read_text(encoding="utf-8")
+    head = text.index("<head>") + len("<head>")
+    return gzip.compress((text[:head] + SHIM + STYLE + text[head:]).encode(), compresslevel=6)
