@@ -1,0 +1,45 @@
+/** The page: top bar, views on the left, panels on the right. */
+import { useEffect } from "react";
+import { AdaptationPanel } from "./adaptation/AdaptationPanel";
+import { startSession } from "./console/session";
+import { useConsole } from "./console/store";
+import { EventLog } from "./events/EventLog";
+import { Notices } from "./events/Notices";
+import { MissionPanel } from "./mission/MissionPanel";
+import { useUndoKeys } from "./mission/useUndoKeys";
+import { RobotPanel } from "./robot/RobotPanel";
+import { Views } from "./scene/Views";
+import { StatusPanel } from "./status/StatusPanel";
+import { useStopKeys } from "./stop/useStopKeys";
+import { TeleopPanel } from "./teleop/TeleopPanel";
+import { TopBar } from "./topbar/TopBar";
+
+export function App() {
+  useEffect(startSession, []);
+  useStopKeys();
+  useUndoKeys();
+  const connected = useConsole((state) => state.connection === "open");
+  return (
+    <div className="page" data-connected={connected}>
+      <TopBar />
+      <main className="work">
+        <div className="work-views">
+          <Views />
+          <EventLog />
+        </div>
+        <div className="work-panels">
+          <div className="panel-column">
+            <MissionPanel />
+            <RobotPanel />
+            <TeleopPanel />
+          </div>
+          <div className="panel-column">
+            <AdaptationPanel />
+            <StatusPanel />
+          </div>
+        </div>
+      </main>
+      <Notices />
+    </div>
+  );
+}

@@ -1,0 +1,72 @@
+/** What each message of the console does to the store. Pure: the clock is an argument. */
+import type { Incoming, LogEntry } from "../protocol/wire";
+import type { ConsoleState, Stamped } from "./store";
+
+const LOG_LENGTH = 300;
+
+export function receive(state: ConsoleState, messages: readonly Incoming[], now: number): ConsoleState {
+  const next = { ...state };
+  const values: Record<string, Stamped<unknown>> = { ...state.values };
+  for (const message of messages) {
+    switch (message.type) {
+      case "hello":
+        next.hello = message;
+        break;
+      case "robots":
+        next.robots = message.robots;
+        break;
+      case "selected":
+        next.selected = message.robot;
+        next.link = null;
+        forget(values, ["*"]);
+        break;
+      case "value":
+        if (message.robot === next.selected) {
+          values[message.key] = { value: message.value, received: now - 1000 * message.age_s };
+        }
+        break;
+      case "forget":
+        if (message.robot === next.selected) forget(values, message.keys);
+        break;
+      case "link":
+        next.link = message;
+        next.linkReceived = now;
+        break;
+      case "legend":
+        next.legend = message;
+        break;
+      case "events":
+        next.events = message.events.slice(-LOG_LENGTH);
+        break;
+      case "event":
+        next.events = [...next.events, entryOf(message)].slice(-LOG_LENGTH);
+        break;
+      case "pong":
+        next.roundTrip = (now - message.t) / 1000;
+        next.roundTripReceived = now;
+        break;
+      case "answer":
+        if (message.round_trip_s !== null) next.commandRoundTrip = message.round_trip_s;
+        break;
+    }
+  }
+  next.values = values;
+  return next;
+}
+
+/** Whether `key` is one of `patterns`, each a key or a prefix followed by a star. */
+export function matches(key: string, patterns: readonly string[]): boolean {
+  return patterns.some((pattern) =>
+    pattern.endsWith("*") ? key.startsWith(pattern.slice(0, -1)) : key === pattern,
+  );
+}
+
+function forget(values: Record<string, unknown>, patterns: readonly string[]): void {
+  for (const key of Object.keys(values)) {
+    if (matches(key, patterns)) delete values[key];
+  }
+}
+
+function entryOf({ robot, stamp_ns, time, severity, source, text }: LogEntry): LogEntry {
+  return { robot, stamp_ns, time, severity, source, text };
+}

@@ -1,0 +1,21 @@
+/** Starts the page. */
+import { MantineProvider } from "@mantine/core";
+import { StrictMode } from "react";
+import { createRoot } from "react-dom/client";
+import { App } from "./App";
+import "./style/mantine.css";
+import "./style/base.css";
+import "./style/topbar.css";
+import "./style/views.css";
+import "./style/panels.css";
+import { colourVariables, theme } from "./theme";
+
+const root = document.getElementById("root");
+if (root === null) throw new Error("index.html has no element #root");
+createRoot(root).render(
+  <StrictMode>
+    <MantineProvider theme={theme} cssVariablesResolver={colourVariables} defaultColorScheme="auto">
+      <App />
+    </MantineProvider>
+  </StrictMode>,
+);

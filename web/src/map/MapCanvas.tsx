@@ -1,0 +1,111 @@
+/** The 2-D map: exact mission editor, and the whole picture where there is no WebGL. */
+import { type KeyboardEvent, useEffect, useId, useRef, useState } from "react";
+import { insertionIndex } from "../mission/path";
+import { useDraft } from "../mission/draftStore";
+import { MAP_HELP, mapKey } from "./keys";
+import { listenToPointer } from "./pointer";
+import { type Point, toScreen, toWorld } from "./projection";
+import { useMapDrawing } from "./useMapDrawing";
+import { useMapView } from "./useMapView";
+import { MapTools } from "./MapTools";
+
+/** Pixels around a waypoint that count as on it; a finger needs room. */
+const REACH = 20;
+
+export function MapCanvas() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const box = useRef<HTMLDivElement>(null);
+  const help = useId();
+  const [focused, setFocused] = useState(false);
+  const map = useMapView(box);
+  useMapDrawing(canvas, map.view, focused);
+
+  const actions = useRef(map);
+  actions.current = map;
+  useEffect(() => {
+    if (canvas.current === null) return;
+    const { dispatch, drag } = useDraft.getState();
+    const world = (screen: Point) => toWorld(actions.current.view.current, screen);
+    return listenToPointer(canvas.current, {
+      waypointAt: (screen) => waypointAt(screen, (point) => toScreen(actions.current.view.current, point)),
+      add: (screen, insert) => addWaypoint(world(screen), insert),
+      select: (index) => dispatch({ type: "select", index }),
+      remove: (index) => dispatch({ type: "delete", index }),
+      drag: (index, screen, done) => drag(index, world(screen), done),
+      pan: (dx, dy) => actions.current.pan(dx, dy),
+      zoom: (screen, factor) => actions.current.zoom(factor, screen),
+    });
+  }, []);
+
+  const press = (event: KeyboardEvent) => {
+    const { draft, dispatch } = useDraft.getState();
+    const key = event.ctrlKey || event.metaKey || event.altKey ? null : mapKey(event, draft.selected !== null);
+    if (key === null) return;
+    event.preventDefault();
+    const { scale } = map.view.current;
+    const selected = draft.selected === null ? undefined : draft.waypoints[draft.selected];
+    switch (key.type) {
+      case "pan":
+        return map.pan(-key.dx * scale, key.dy * scale);
+      case "nudge":
+        if (selected === undefined || draft.selected === null) return;
+        return dispatch({ type: "place", index: draft.selected, waypoint: { x: selected.x + key.dx, y: selected.y + key.dy } });
+      case "zoom":
+        return map.zoom(key.factor);
+      case "add":
+        return addWaypoint({ x: map.view.current.x, y: map.view.current.y }, event.shiftKey);
+      case "delete":
+        return draft.selected === null ? undefined : dispatch({ type: "delete", index: draft.selected });
+      case "next":
+      case "previous":
+        return dispatch({ type: "select", index: neighbour(draft.selected, draft.waypoints.length, key.type === "next" ? 1 : -1) });
+      case "deselect":
+        return dispatch({ type: "select", index: null });
+      case "centre":
+        return map.centre();
+    }
+  };
+
+  return (
+    <div className="map" ref={box}>
+      <canvas
+        ref={canvas}
+        role="application"
+        aria-label="Map"
+        aria-describedby={help}
+        tabIndex={0}
+        onKeyDown={press}
+        onFocus={(event) => setFocused(event.currentTarget.matches(":focus-visible"))}
+        onBlur={() => setFocused(false)}
+      />
+      <p id={help} className="visually-hidden">
+        {MAP_HELP}
+      </p>
+      <MapTools map={map} />
+    </div>
+  );
+}
+
+function addWaypoint(waypoint: Point, insert: boolean): void {
+  const { draft, dispatch } = useDraft.getState();
+  if (insert) dispatch({ type: "insert", index: insertionIndex(draft.waypoints, waypoint), waypoint });
+  else dispatch({ type: "add", waypoint });
+}
+
+function waypointAt(screen: Point, project: (point: Point) => Point): number | null {
+  const { waypoints } = useDraft.getState().draft;
+  let best: number | null = null;
+  let least = REACH;
+  waypoints.forEach((waypoint, index) => {
+    const at = project(waypoint);
+    const gap = Math.hypot(at.x - screen.x, at.y - screen.y);
+    if (gap < least) [best, least] = [index, gap];
+  });
+  return best;
+}
+
+function neighbour(selected: number | null, length: number, step: number): number | null {
+  if (length === 0) return null;
+  if (selected === null) return step > 0 ? 0 : length - 1;
+  return (selected + step + length) % length;
+}

@@ -1,0 +1,44 @@
+/** Editing, sending and watching a mission. */
+import { Button } from "@mantine/core";
+import { Panel } from "../components/Panel";
+import { fixed } from "../components/format";
+import { useLatest } from "../console/useLatest";
+import { positionOf } from "../map/drawing";
+import { sameWaypoints } from "./draft";
+import { useDraft } from "./draftStore";
+import { MissionButtons } from "./MissionButtons";
+import { MissionProgress } from "./MissionProgress";
+import { pathLength } from "./path";
+import { WaypointList } from "./WaypointList";
+
+export function MissionPanel() {
+  const { draft, dispatch } = useDraft();
+  const onRobot = useLatest("state/mission")?.waypoints;
+  const start = useLatest("tele/state")?.position_in_world;
+  const unsent = !sameWaypoints(draft.waypoints, onRobot ?? []);
+  const length = pathLength(draft.waypoints, start === undefined ? null : positionOf(start));
+  return (
+    <Panel
+      title="Mission"
+      className="mission"
+      aside={
+        <span className="panel-aside">
+          {unsent && <span className="tag tag-caution">! Unsent changes</span>}
+          {draft.waypoints.length > 0 && <span className="number">{fixed(length, 2)} m</span>}
+        </span>
+      }
+    >
+      <WaypointList />
+      <div className="button-row">
+        <Button size="xs" variant="default" disabled={draft.past.length === 0} onClick={() => dispatch({ type: "undo" })}>
+          Undo
+        </Button>
+        <Button size="xs" variant="default" disabled={draft.future.length === 0} onClick={() => dispatch({ type: "redo" })}>
+          Redo
+        </Button>
+        <MissionButtons unsent={unsent} />
+      </div>
+      <MissionProgress />
+    </Panel>
+  );
+}

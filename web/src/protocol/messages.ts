@@ -1,0 +1,164 @@
+/** Messages of shared/weaver_shared/messages as they reach the page. SI units; an unknown number is null. */
+
+export type Maybe = number | null;
+
+export interface Waypoint {
+  x: number;
+  y: number;
+}
+
+export type RobotKind = "SIM" | "EMULATED BUS" | "REAL";
+export type Severity = "info" | "warning" | "error";
+export type Mode = "OFF" | "READY" | "STAND" | "WALK" | "SIT" | "HOLD" | "FAULT" | "ESTOP";
+
+export const COMMAND_NAMES = [
+  "take_control",
+  "release_control",
+  "retain_control",
+  "stand",
+  "sit",
+  "stop",
+  "release_stop",
+  "set_mission",
+  "start_mission",
+  "pause_mission",
+  "clear_mission",
+  "set_override",
+  "clear_override",
+  "set_gait",
+] as const;
+export type CommandName = (typeof COMMAND_NAMES)[number];
+
+export interface Presence {
+  robot_id: string;
+  session: string;
+  kind: RobotKind;
+  robot: string;
+  world: string;
+  schema: number;
+}
+
+export interface ModeState {
+  stamp_ns: number;
+  mode: Mode;
+  action: "allow" | "hold" | "sit" | "cut";
+  reasons: string[];
+  stopped: boolean;
+  stop_level: "" | "settle" | "cut";
+  allowed: CommandName[];
+}
+
+export interface LeaseState {
+  holder: string;
+  epoch: number;
+  seconds_left: number;
+}
+
+export interface MissionState {
+  stamp_ns: number;
+  phase: "empty" | "ready" | "active" | "paused" | "done";
+  waypoints: Waypoint[];
+  next_waypoint: number;
+  cross_track_error: Maybe;
+  distance_left: Maybe;
+  lookahead_in_world: Maybe[];
+}
+
+export interface RobotState {
+  stamp_ns: number;
+  position_in_world: Maybe[];
+  wxyz: Maybe[];
+  velocity_command: Maybe[];
+  velocity_in_body: Maybe[];
+  joint_position: Maybe[];
+  joint_torque: Maybe[];
+  foot_in_body: Maybe[][];
+  foot_contact: boolean[];
+  foot_force: Maybe[];
+  stability_margin: Maybe;
+  roll: Maybe;
+  pitch: Maybe;
+}
+
+export interface GaitState {
+  stamp_ns: number;
+  gait: string;
+  phase: Maybe[];
+  swing: boolean[];
+  parameters_frequency: Maybe;
+  parameters_height: Maybe;
+  parameters_stiffness: Maybe;
+}
+
+export interface GaitParameters {
+  stamp_ns: number;
+  virtual_stiffness: Maybe;
+  stride_frequency: Maybe;
+  stride_height: Maybe;
+  confidence: Maybe;
+}
+export type ParameterName = "virtual_stiffness" | "stride_frequency" | "stride_height";
+
+export interface AdaptationReport {
+  stamp_ns: number;
+  roughness: Maybe;
+  roughness_sigma: Maybe;
+  step_height: Maybe;
+  step_height_sigma: Maybe;
+  ahead_roughness: Maybe;
+  ahead_step_height: Maybe;
+  source: string;
+  desired: GaitParameters;
+  applied: GaitParameters;
+  overridden: string[];
+}
+
+export interface PowerState {
+  stamp_ns: number;
+  battery_voltage: Maybe;
+  battery_fraction: Maybe;
+  supply_power: Maybe;
+  motor_power: Maybe;
+  energy: Maybe;
+  cost_of_transport: Maybe;
+}
+
+export interface LoopTiming {
+  name: string;
+  stamp_ns: number;
+  rate: Maybe;
+  period_error_p99: Maybe;
+  overruns: number;
+  cpu_fraction: Maybe;
+  real_time_factor: Maybe;
+}
+
+export interface Health {
+  stamp_ns: number;
+  timings: LoopTiming[];
+  odometry_quality: string;
+  odometry_reason: string;
+  odometry_age: Maybe;
+  tracked_features: number;
+  max_temperature: Maybe;
+}
+
+export interface Heartbeat {
+  stamp_ns: number;
+  sequence: number;
+  session: string;
+}
+
+export interface EventMessage {
+  stamp_ns: number;
+  severity: Severity;
+  source: string;
+  text: string;
+}
+
+export interface TruthState {
+  stamp_ns: number;
+  position_in_world: Maybe[];
+  wxyz: Maybe[];
+  velocity_in_world: Maybe[];
+}

@@ -1,0 +1,128 @@
+/** Frames of the page's socket (docs/console_protocol.md). */
+import type { CommandName, EventMessage, RobotKind, Waypoint } from "./messages";
+
+export interface Hello {
+  type: "hello";
+  page: string;
+  operator: string;
+  version: string;
+  scene: string | null;
+  layers: string[];
+  layer: string;
+  schema: number;
+}
+
+export interface RobotEntry {
+  id: string;
+  session: string;
+  kind: RobotKind;
+  robot: string;
+  world: string;
+  alive: boolean;
+  heartbeat_age_s: number | null;
+  processes: string[];
+  mode: string;
+  stopped: boolean;
+  holder: string;
+  leg_names: string[];
+  joint_names: string[];
+  gaits: string[];
+  joint_limits: [number, number][];
+  conflict: string;
+}
+
+export interface ValueFrame {
+  type: "value";
+  robot: string;
+  key: string;
+  kind: string;
+  stamp_ns: number;
+  age_s: number;
+  value: unknown;
+}
+
+export interface LinkReport {
+  type: "link";
+  robot: string;
+  alive: boolean;
+  heartbeat_age_s: number | null;
+  rates: Record<string, number>;
+}
+
+export interface LogEntry extends EventMessage {
+  robot: string;
+  time: number;
+}
+
+export interface Answer {
+  type: "answer";
+  id: string | null;
+  robot: string;
+  command: string;
+  accepted: boolean;
+  reason: string;
+  applied_value: number | null;
+  lease_epoch: number;
+  round_trip_s: number | null;
+}
+
+export interface Legend {
+  type: "legend";
+  layer: string;
+  label: string;
+  unit: string;
+  stops: [value: number, colour: string][];
+  unknown: string;
+}
+
+export type Incoming =
+  | Hello
+  | { type: "robots"; robots: RobotEntry[] }
+  | { type: "selected"; robot: string | null }
+  | ValueFrame
+  | { type: "forget"; robot: string; keys: string[] }
+  | LinkReport
+  | { type: "events"; events: LogEntry[] }
+  | ({ type: "event" } & LogEntry)
+  | Answer
+  | { type: "picked"; x: number; y: number; z: number }
+  | { type: "missed"; reason: string }
+  | { type: "dragged"; index: number; x: number; y: number; z: number; done: boolean }
+  | Legend
+  | { type: "pong"; t: number }
+  | { type: "error"; reason: string };
+
+export interface CommandFields {
+  robot?: string;
+  reason?: string;
+  name?: string;
+  value?: number;
+  seconds?: number;
+  waypoints?: readonly Waypoint[];
+}
+
+export type Outgoing =
+  | { type: "select"; robot: string | null }
+  | ({ type: "command"; id: string; command: CommandName } & CommandFields)
+  | { type: "retain" }
+  | { type: "teleop"; forward: number; left: number; turn: number; dead_man: boolean }
+  | { type: "draft"; waypoints: readonly Waypoint[]; selected: number | null }
+  | { type: "layer"; name: string }
+  | { type: "view"; follow?: boolean; truth?: boolean; frusta?: boolean; trail?: boolean }
+  | { type: "watch"; cameras: boolean }
+  | { type: "ping"; t: number };
+
+/** The messages of a frame; an unreadable frame is none, so that one bad sender can not stop the page. */
+export function parseFrame(text: string): Incoming[] {
+  let frame: unknown;
+  try {
+    frame = JSON.parse(text);
+  } catch {
+    return [];
+  }
+  return Array.isArray(frame) ? frame.filter(isMessage) : [];
+}
+
+function isMessage(item: unknown): item is Incoming {
+  return typeof item === "object" && item !== null && typeof (item as { type?: unknown }).type === "string";
+}

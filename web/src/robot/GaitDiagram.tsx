@@ -1,0 +1,72 @@
+/** Which leg stood and which swung over the last seconds: a filled bar is stance. */
+import { useComputedColorScheme } from "@mantine/core";
+import { useEffect, useRef } from "react";
+import { history } from "../console/live";
+import { selectedRobot } from "../console/control";
+import { useConsole } from "../console/store";
+import { useFreshness, useLatest } from "../console/useLatest";
+
+const SPAN = 4; // s
+const ROW = 13; // px
+const LABEL = 26; // px
+const COLOURS = {
+  light: { stance: "#0b6b80", swing: "#dde3e8", text: "#3b4752" },
+  dark: { stance: "#5fc4da", swing: "#2c3742", text: "#c5cfd8" },
+};
+
+export function GaitDiagram() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const gait = useLatest("tele/gait");
+  const { level } = useFreshness("tele/gait");
+  const scheme = useComputedColorScheme("light");
+  const legs = useConsole(selectedRobot)?.leg_names ?? [];
+  const count = gait?.swing.length ?? (legs.length || 6);
+
+  useEffect(() => {
+    if (canvas.current !== null) draw(canvas.current, count, legs, COLOURS[scheme]);
+  }, [gait, count, legs, scheme]);
+
+  return (
+    <figure className="gait-diagram" data-freshness={level}>
+      <canvas ref={canvas} style={{ height: count * ROW }} role="img" aria-label={spoken(gait?.swing, legs)} />
+      <figcaption>
+        <span className="swatch swatch-stance" aria-hidden /> stance <span className="swatch swatch-swing" aria-hidden /> swing,
+        last {SPAN} s{level === "live" ? "" : level === "never" ? " (no data)" : ` (${level})`}
+      </figcaption>
+    </figure>
+  );
+}
+
+function draw(canvas: HTMLCanvasElement, count: number, legs: readonly string[], colours: (typeof COLOURS)["light"]): void {
+  const context = canvas.getContext("2d");
+  if (context === null) return;
+  const ratio = devicePixelRatio;
+  const width = canvas.clientWidth;
+  canvas.width = Math.round(width * ratio);
+  canvas.height = Math.round(count * ROW * ratio);
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.font = "11px system-ui, sans-serif";
+  context.textBaseline = "middle";
+  const samples = history.swings;
+  const now = samples.at(-1)?.seconds ?? 0;
+  const x = (seconds: number) => LABEL + (width - LABEL) * (1 - (now - seconds) / SPAN);
+  for (let leg = 0; leg < count; leg++) {
+    context.fillStyle = colours.text;
+    context.fillText(legs[leg] ?? String(leg + 1), 0, (leg + 0.5) * ROW);
+    context.fillStyle = colours.swing;
+    context.fillRect(LABEL, leg * ROW + 4.5, width - LABEL, ROW - 9);
+    context.fillStyle = colours.stance;
+    samples.forEach((sample, k) => {
+      const until = samples[k + 1]?.seconds ?? now;
+      if (until < now - SPAN || sample.swing[leg] === true) return;
+      const left = Math.max(x(sample.seconds), LABEL);
+      context.fillRect(left, leg * ROW + 1.5, Math.max(x(until) - left, 0), ROW - 3);
+    });
+  }
+}
+
+function spoken(swing: readonly boolean[] | undefined, legs: readonly string[]): string {
+  if (swing === undefined) return "Gait diagram, no data";
+  const swinging = swing.flatMap((up, leg) => (up ? [legs[leg] ?? String(leg + 1)] : []));
+  return `Gait diagram, ${swinging.length === 0 ? "all legs in stance" : `in swing: ${swinging.join(", ")}`}`;
+}

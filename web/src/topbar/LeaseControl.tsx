@@ -1,0 +1,46 @@
+/** Who holds the robot, and how to take or give back control. */
+import { Button } from "@mantine/core";
+import { useState } from "react";
+import { command } from "../console/commands";
+import { holder, holdsControl, selectedRobot } from "../console/control";
+import { useConsole } from "../console/store";
+import { TakeOverDialog } from "./TakeOverDialog";
+
+export function LeaseControl() {
+  const held = useConsole(holdsControl);
+  const owner = useConsole(holder);
+  const robot = useConsole(selectedRobot);
+  const connected = useConsole((state) => state.connection === "open");
+  const [asking, setAsking] = useState(false);
+  const [waiting, setWaiting] = useState(false);
+
+  const ask = async (name: "take_control" | "release_control", reason?: string) => {
+    setAsking(false);
+    setWaiting(true);
+    await command(name, reason === undefined ? {} : { reason });
+    setWaiting(false);
+  };
+
+  return (
+    <div className="lease">
+      <span className="lease-holder" data-held={held}>
+        {held ? "You have control" : owner === "" ? "Nobody has control" : `${owner} has control`}
+      </span>
+      {held ? (
+        <Button size="xs" variant="default" loading={waiting} onClick={() => void ask("release_control")}>
+          Release control
+        </Button>
+      ) : (
+        <Button
+          size="xs"
+          loading={waiting}
+          disabled={!connected || robot === undefined || !robot.alive}
+          onClick={() => (owner === "" ? void ask("take_control") : setAsking(true))}
+        >
+          Take control
+        </Button>
+      )}
+      <TakeOverDialog opened={asking} owner={owner} onCancel={() => setAsking(false)} onTake={(why) => void ask("take_control", why)} />
+    </div>
+  );
+}

@@ -1,0 +1,44 @@
+/** Both directions of the link apart: what arrives from the robot, and how long an answer takes. */
+import { fixed, milliseconds } from "../components/format";
+import { spokenAge } from "../console/freshness";
+import { useConsole } from "../console/store";
+
+/** Seconds without a heartbeat after which the robot counts as silent. */
+const SILENT_AFTER = 1;
+const PONG_OVERDUE = 3;
+
+export function LinkReadings() {
+  const down = useConsole((state) => downlink(state.link?.heartbeat_age_s ?? null, state.linkReceived, state.now));
+  const rate = useConsole((state) => fixed(state.link?.rates["tele/state"], 0));
+  const up = useConsole((state) => {
+    if (state.connection !== "open" || state.roundTrip === null) return null;
+    return (state.now - state.roundTripReceived) / 1000 > PONG_OVERDUE ? null : state.roundTrip;
+  });
+  const robotRoundTrip = useConsole((state) => state.commandRoundTrip);
+  const open = useConsole((state) => state.connection === "open");
+  const downLost = !open || down === null || down >= SILENT_AFTER;
+  return (
+    <dl className="link" aria-label="Link">
+      <div data-bad={downLost} title="From the robot: age of its last heartbeat, and states a second">
+        <dt>
+          <span aria-hidden>↓</span> from robot
+        </dt>
+        <dd>{!open || down === null ? "none" : downLost ? `${spokenAge(down)} silent` : `${spokenAge(down)}, ${rate} Hz`}</dd>
+      </div>
+      <div data-bad={up === null} title="To the console and back, and to the robot and back for the last command">
+        <dt>
+          <span aria-hidden>↑</span> to console
+        </dt>
+        <dd>
+          {up === null ? "none" : `${milliseconds(up)} ms`}
+          {robotRoundTrip !== null && up !== null && `, robot ${milliseconds(robotRoundTrip)} ms`}
+        </dd>
+      </div>
+    </dl>
+  );
+}
+
+/** Age of the heartbeat now, in tenths of a second: counted on from the console's last report. */
+function downlink(age: number | null, received: number, now: number): number | null {
+  return age === null ? null : Math.round(10 * (age + Math.max(0, now - received - 500) / 1000)) / 10;
+}
