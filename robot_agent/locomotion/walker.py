@@ -30,10 +30,10 @@ class Walker:
     """One robot's legs. Deterministic: the same inputs give the same outputs; time comes in as `dt` s a tick."""
 
     def __init__(
-        self, robot: RobotDescription, config: LocomotionConfig = LocomotionConfig(), dt: float = 0.01
+        self, robot: RobotDescription, config: LocomotionConfig | None = None, dt: float = 0.01
     ) -> None:
         self._robot = robot
-        self._config = config
+        self._config = config = config or LocomotionConfig()
         self._dt = dt
         self._model = model = LegModel.of_robot(robot, speed_fraction=config.speed_fraction)
         legs, joints = model.leg_count, model.joints_per_leg
