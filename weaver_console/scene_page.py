@@ -29,7 +29,12 @@ SHIM = """<script>
 })();
 </script>"""
 
-STYLE = "<style>html, body { background: #14171b; }</style>"
+STYLE = """<style>
+html, body { background: #14171b; }
+/* viser's own panels: everything they offer is on the page around this one, with names for screen readers. */
+[data-floating-window], [data-dock-region], .mantine-Notifications-root,
+[style*="position: fixed"][style*="min-height: 3.5em"] { display: none !important; }
+</style>"""
 
 
 @cache

@@ -177,9 +177,15 @@ class PageScene:
         scene = self._server.scene
         scene.set_up_direction("+z")
         scene.configure_environment_map(None)
-        scene.configure_default_lights(enabled=True, cast_shadow=False)
+        # A low sun shows the relief that viser's own, nearly overhead, hides.
+        scene.configure_default_lights(enabled=False)
+        scene.add_light_hemisphere("/sky", sky_color=(255, 255, 255), ground_color=(120, 112, 104), intensity=1.5)
+        scene.add_light_directional("/sun", intensity=2.4, position=(-3.0, 4.0, 4.0))
         self._server.gui.configure_theme(dark_mode=True, show_share_button=False, show_logo=False)
-        scene.add_grid("/grid", width=40.0, height=40.0, cell_size=1.0, section_size=5.0, position=(0.0, 0.0, -0.02))
+        scene.add_grid(
+            "/grid", width=40.0, height=40.0, cell_size=1.0, section_size=5.0, cell_color=(52, 58, 66),
+            section_color=(74, 82, 92), fade_distance=25.0, position=(0.0, 0.0, -0.02),
+        )  # fmt: skip
         self._server.initial_camera.position = tuple(CAMERA_BEHIND)
         self._server.initial_camera.look_at = (0.6, 0.0, 0.0)
         self._server.scene.on_click()(self._clicked)

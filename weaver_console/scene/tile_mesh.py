@@ -1,7 +1,8 @@
 """A map tile as binary glTF: a height field in whole millimetres with a colour at every cell, some 20 bytes a cell.
 
 Written by hand because meshes that a library builds take ten times the time and twice the bytes; the quantised
-attributes are the extension KHR_mesh_quantization.
+attributes are the extension KHR_mesh_quantization. There are no normals: viser computes its own, and wrongly where
+quantised ones are given.
 """
 
 from __future__ import annotations
@@ -84,40 +85,28 @@ def height_field_glb(
     positions[..., 0] = np.arange(rows)[:, None] * cell_mm
     positions[..., 1] = np.arange(columns)[None, :] * cell_mm
     positions[..., 2] = np.where(elevation_mm == UNKNOWN_MM, 0, elevation_mm)
-    normals = _normals(positions[..., 2], cell_mm)
     rgba = np.full((rows, columns, 4), 255, dtype=np.uint8)
     rgba[..., :3] = _LINEAR[colours]
-    chunks = [positions.tobytes(), normals.tobytes(), rgba.tobytes(), faces.astype("<u2").tobytes()]
+    chunks = [positions.tobytes(), rgba.tobytes(), faces.astype("<u2").tobytes()]
     scale = cell / (cell_mm * 1e-3) * 1e-3  # exact spacing when the cell is no whole number of millimetres
     heads = _heads(positions[..., :3].reshape(-1, 3), rows * columns, faces.size, chunks)
     node = {"mesh": 0, "scale": [scale, scale, 1e-3], "translation": [origin[0], origin[1], 0.0]}
     return _container({**heads, "nodes": [node]}, b"".join(chunk + b"\0" * (-len(chunk) % 4) for chunk in chunks))
 
 
-def _normals(height_mm: NDArray[np.int16], cell_mm: int) -> NDArray[np.int8]:
-    heights = height_mm.astype(np.float64)
-    slope_x, slope_y = np.gradient(heights, float(cell_mm))
-    normal = np.stack([-slope_x, -slope_y, np.ones_like(heights)], axis=-1)
-    normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    packed = np.zeros((*heights.shape, 4), dtype=np.int8)
-    packed[..., :3] = np.rint(normal * 127)
-    return packed
-
-
 def _heads(positions: NDArray[np.int16], vertices: int, indices: int, chunks: list[bytes]) -> dict[str, object]:
     views, offset = [], 0
-    for chunk, (stride, target) in zip(chunks, ((8, 34962), (4, 34962), (4, 34962), (0, 34963)), strict=True):
+    for chunk, (stride, target) in zip(chunks, ((8, 34962), (4, 34962), (0, 34963)), strict=True):
         view = {"buffer": 0, "byteOffset": offset, "byteLength": len(chunk), "target": target}
         views.append({**view, "byteStride": stride} if stride else view)
         offset += len(chunk) + -len(chunk) % 4
     low, high = positions.min(axis=0).tolist(), positions.max(axis=0).tolist()
     accessors = [
         {"bufferView": 0, "componentType": 5122, "count": vertices, "type": "VEC3", "min": low, "max": high},
-        {"bufferView": 1, "componentType": 5120, "normalized": True, "count": vertices, "type": "VEC3"},
-        {"bufferView": 2, "componentType": 5121, "normalized": True, "count": vertices, "type": "VEC4"},
-        {"bufferView": 3, "componentType": 5123, "count": indices, "type": "SCALAR"},
+        {"bufferView": 1, "componentType": 5121, "normalized": True, "count": vertices, "type": "VEC4"},
+        {"bufferView": 2, "componentType": 5123, "count": indices, "type": "SCALAR"},
     ]
-    primitive = {"attributes": {"POSITION": 0, "NORMAL": 1, "COLOR_0": 2}, "indices": 3, "material": 0}
+    primitive = {"attributes": {"POSITION": 0, "COLOR_0": 1}, "indices": 2, "material": 0}
     return {
         "asset": {"version": "2.0"},
         "extensionsUsed": ["KHR_mesh_quantization"],
