@@ -39,7 +39,7 @@ class _Weights(NamedTuple):
 
 
 class CellFeatures(NamedTuple):
-    """Each (rows, columns), NaN where too little is known: roughness, step height 0..1, sigmas, slope (rise over run)."""
+    """Each (rows, columns), NaN where too little is known; indices 0..1 and their sigmas, slope as rise over run."""
 
     roughness: Grid
     roughness_sigma: Grid

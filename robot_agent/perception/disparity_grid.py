@@ -24,6 +24,8 @@ INDEPENDENT_POINTS = 8.0
 
 LARGEST_DISPARITY = 256  # px
 
+BORDER = 3  # px at the top and bottom, where half a matching window is missing
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeightGrid:
@@ -131,6 +133,7 @@ class DisparityGrid:
         top = np.full(size * size, -np.inf, dtype=np.float32)
         count = _list_points(disparity, projection, gate, cells, self._points, top)
         elevation, variance = _average_tops(count, self._points, top, config.top_band, config.min_points)
+        _drop_lonely(elevation.reshape(size, size), config.companions, config.companion_step)
         return HeightGrid(
             row0=row,
             column0=column,
@@ -156,7 +159,7 @@ def _list_points(
     largest = projection.depths.shape[0] - 1
     reach_squared = gate.reach * gate.reach
     listed = 0
-    for v in range(height):
+    for v in range(BORDER, height - BORDER):
         row_slope = projection.rows[v]
         x_row = rotation[0, 1] * row_slope + rotation[0, 2]
         y_row = rotation[1, 1] * row_slope + rotation[1, 2]
@@ -215,3 +218,25 @@ def _average_tops(
             elevation[index] /= n
             variance[index] /= n * (1.0 + (n - 1) / INDEPENDENT_POINTS)
     return elevation, variance
+
+
+@njit(cache=True)  # type: ignore[untyped-decorator]
+def _drop_lonely(elevation: NDArray[np.float32], companions: int, step: float) -> None:
+    """Forget cells with fewer than `companions` cells near their height about them: mistakes of the matcher."""
+    size = elevation.shape[0]
+    lonely = np.zeros(elevation.shape, dtype=np.bool_)
+    for r in range(size):
+        for c in range(size):
+            z = elevation[r, c]
+            if np.isnan(z):
+                continue
+            alike = -1
+            for i in range(max(0, r - 2), min(size, r + 3)):
+                for j in range(max(0, c - 2), min(size, c + 3)):
+                    if abs(elevation[i, j] - z) < step:
+                        alike += 1
+            lonely[r, c] = alike < companions
+    for r in range(size):
+        for c in range(size):
+            if lonely[r, c]:
+                elevation[r, c] = np.nan

@@ -21,7 +21,7 @@ class MatchingConfig(_Settings):
     block: Annotated[int, Field(ge=1)] = 5  # px
     uniqueness: Annotated[int, Field(ge=0)] = 8  # percent by which the best cost beats the second
     left_right_difference: Annotated[int, Field(ge=0)] = 1  # px both directions may differ by
-    speckle_area: Annotated[int, Field(ge=0)] = 60  # px; smaller islands of disparity are mistakes
+    speckle_area: Annotated[int, Field(ge=0)] = 100  # px; smaller islands of disparity are mistakes
     disparity_sigma: Positive = 0.24  # px, measured on rendered rough ground at 320 x 240
     smallest_disparity: Positive = 6.0  # px; beyond it a point says little about centimetres
 
@@ -31,9 +31,11 @@ class GridConfig(_Settings):
 
     cell: Positive = 0.02  # m
     reach: Positive = 1.6  # m from the camera along the ground; height sigma there is about 1 cm
-    height_gate: Positive = 0.25  # m above or below the plane of the feet, at the robot
-    gate_slope: Annotated[float, Field(ge=0.0)] = 0.36  # the gate opens with distance: 20 degrees of slope pass
+    height_gate: Positive = 0.22  # m above or below the plane of the feet, at the robot
+    gate_slope: Annotated[float, Field(ge=0.0)] = 0.3  # the gate opens with distance: 17 degrees of slope pass
     min_points: Annotated[int, Field(ge=1)] = 2
+    companions: Annotated[int, Field(ge=0)] = 7  # cells of the 24 about one that must lie near its height
+    companion_step: Positive = 0.04  # m that counts as near
     top_band: Positive = 0.015  # m under a cell's highest point that count as its top
 
 
