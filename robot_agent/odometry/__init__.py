@@ -1,1 +1,7 @@
-"""Stereo-inertial odometry (ICRA'17 III-A)."""
+"""Stereo-inertial odometry: a keyframe sliding window over tracked corners and preintegrated inertia (ICRA'17 III-A)."""
+
+from robot_agent.odometry.estimator import StereoInertialOdometry
+from robot_agent.odometry.propagator import NavigationState, StatePropagator
+from robot_agent.odometry.warming import warm_up
+
+__all__ = ["NavigationState", "StatePropagator", "StereoInertialOdometry", "warm_up"]

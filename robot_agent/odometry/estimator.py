@@ -1,0 +1,306 @@
+"""Stereo-inertial odometry of the body (ICRA'17 III-A): front end, sliding window, start, standstill and failure."""
+
+from __future__ import annotations
+
+from collections import deque
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robot_agent.odometry.front_end import FrontEnd
+from robot_agent.odometry.imu_stream import ImuStream, Inertia
+from robot_agent.odometry.landmarks import Eyes
+from robot_agent.odometry.propagation import propagate
+from robot_agent.odometry.start import Beginning, begin_again, begin_at_rest, begin_in_motion, is_still, levelled
+from robot_agent.odometry.tracks import Tracks
+from robot_agent.odometry.window import SlidingWindow
+from robot_agent.vision.camera import StereoCalibration
+from weaver_shared.config.odometry import OdometryConfig
+from weaver_shared.messages import ImuBatch, OdometryEstimate, OdometryQuality, StereoFrame
+from weaver_shared.robots.description import Imu
+from weaver_shared.transforms import Pose, rotation_z, skew, wxyz_from_rotation
+
+Array = NDArray[np.float64]
+
+DRIFT_SPEED, DRIFT_ACCELERATION = 0.02, 0.05
+"""m/s and m/s^2: how fast the pose's uncertainty grows on inertia alone (velocity and tilt errors after a good fix)."""
+
+STEEP = 0.9
+"""A body whose x axis points this far up or down has no heading to keep."""
+
+
+class StereoInertialOdometry:
+    """One `step` per stereo pair. Bad pictures or inertia never raise: the estimate says what is wrong with it."""
+
+    def __init__(
+        self,
+        *,
+        calibration: StereoCalibration,
+        imu: Imu,
+        initial: Pose,
+        config: OdometryConfig | None = None,
+        body_from_imu: Pose | None = None,
+    ) -> None:
+        """`initial` is world_from_body at the start: its position and heading count, its tilt is measured.
+
+        `body_from_imu` replaces the pose of the robot description (for recordings with rotated IMUs).
+        """
+        self._config = config if config is not None else OdometryConfig()
+        self._imu = imu
+        self._body_from_imu = body_from_imu if body_from_imu is not None else imu.body_from_imu
+        self._imu_from_body = self._body_from_imu.inverse()
+        eyes = [eye.body_from_camera.inverse() @ self._body_from_imu for eye in (calibration.left, calibration.right)]
+        self._left_from_imu = eyes[0]
+        self._time_offset_ns = round(calibration.time_offset * 1e9)
+        self._front_end = FrontEnd(calibration, self._config.front_end)
+        self._window = SlidingWindow(
+            Eyes(np.stack([e.rotation for e in eyes]), np.stack([e.position for e in eyes])),
+            imu,
+            calibration.left.fx,
+            self._config,
+        )
+        self._stream = ImuStream(self._config.failure)
+        self._initial = initial
+        self._stamp: int | None = None
+        self._started = False
+        self._lost = False
+        self._waited = 0.0
+        self._history: deque[Array] = deque()
+        self._pending: list[Array] = []  # inertia since the window's newest frame
+        self._pending_trusted = True
+        self._rate = np.zeros(3)
+        self._world_from_imu = initial @ self._body_from_imu
+        self._velocity = np.zeros(3)
+        self._forgotten = np.zeros((6, 6))  # covariance of the pose that the last restart began with
+
+    @property
+    def time_offset(self) -> float:
+        """Estimated correction to the calibrated camera to IMU time offset, s."""
+        return float(self._window.frames.time_offset[0])
+
+    def step(self, frame: StereoFrame, imu: ImuBatch) -> OdometryEstimate:
+        """The body's pose at the frame's stamp, from the pair and all inertial samples since the previous one."""
+        self._stream.add(imu)
+        if self._stamp is not None and frame.stamp_ns <= self._stamp:
+            return self._report(OdometryQuality.DEGRADED, "picture repeated or out of order", 0)
+        self._stamp = frame.stamp_ns
+        inertia = self._stream.take_until(frame.stamp_ns + self._time_offset_ns)
+        self._rate = inertia.rate
+        self._remember(inertia)
+        return self._track(frame, inertia) if self._started else self._start(frame, inertia)
+
+    # ---- beginning -------------------------------------------------------------------------------------------------
+
+    def _start(self, frame: StereoFrame, inertia: Inertia) -> OdometryEstimate:
+        tracks = self._front_end.step(frame, Pose.identity())
+        start, samples = self._config.start, self._recent()
+        duration = float(samples[:, 0].sum())
+        self._waited += float(inertia.samples[:, 0].sum())
+        guess = (self._initial @ self._body_from_imu).rotation
+        moved = tracks.flow > self._config.rest.flow
+        if duration >= start.rest_duration - 1e-6 and not moved and is_still(samples, None, self._config.rest):
+            self._begin(begin_at_rest(samples, guess, self._imu, start), tracks)
+        elif self._waited >= start.patience:
+            self._begin(begin_in_motion(samples, guess, start), tracks)
+        else:
+            self._set_attitude(levelled(guess, _direction(samples)) if len(samples) else guess)
+            return self._report(OdometryQuality.INITIALISING, "waiting for rest to find gravity", tracks.number)
+        return self._report(*self._judge(tracks, inertia), tracks.number)
+
+    def _begin(self, beginning: Beginning, tracks: Tracks) -> None:
+        self._set_attitude(beginning.rotation)
+        self._window_begins(beginning, tracks)
+        self._started = True
+
+    def _set_attitude(self, rotation: Array) -> None:
+        """Turn the initial body about its own place to `rotation` (world_from_imu), keeping its heading."""
+        body = rotation @ self._imu_from_body.rotation
+        if abs(body[2, 0]) < STEEP and abs(self._initial.rotation[2, 0]) < STEEP:
+            body = rotation_z(self._initial.yaw - Pose(rotation=body, position=np.zeros(3)).yaw) @ body
+        self._world_from_imu = Pose(rotation=body, position=self._initial.position) @ self._body_from_imu
+
+    def _window_begins(self, beginning: Beginning, tracks: Tracks) -> None:
+        assert self._stamp is not None
+        self._window.begin(
+            self._stamp,
+            rotation=self._world_from_imu.rotation,
+            position=self._world_from_imu.position,
+            velocity=self._velocity,
+            gyro_bias=beginning.gyro_bias,
+            accel_bias=beginning.accel_bias,
+            rate=self._rate - beginning.gyro_bias,
+            information=beginning.information,
+        )
+        self._window.see(tracks)
+        self._clear_pending()
+        self._lost = False
+
+    # ---- following -------------------------------------------------------------------------------------------------
+
+    def _track(self, frame: StereoFrame, inertia: Inertia) -> OdometryEstimate:
+        before = self._world_from_imu
+        self._pending.append(inertia.samples)
+        self._pending_trusted &= inertia.trusted
+        self._predict()
+        left_from_previous = (
+            self._left_from_imu @ self._world_from_imu.inverse() @ before @ self._left_from_imu.inverse()
+        )
+        tracks = self._front_end.step(frame, left_from_previous)
+        resting = self._is_resting(tracks, inertia)
+        blind = tracks.number < self._config.failure.least_features
+        if self._lost and not blind:
+            self._begin_again(tracks)
+            return self._report(OdometryQuality.DEGRADED, "began again after being lost", tracks.number)
+        if blind and not resting:
+            return self._report_blind(tracks)
+        self._settle(tracks, resting)
+        return self._report(*self._judge(tracks, inertia), tracks.number)
+
+    def _settle(self, tracks: Tracks, resting: bool) -> None:
+        """Give the frame to the window and take its state over; begin again if that state can not be true."""
+        assert self._stamp is not None
+        window, failure = self._window, self._config.failure
+        noise_scale = 1.0 if self._pending_trusted else 30.0
+        window.add_frame(
+            self._stamp,
+            np.concatenate(self._pending),
+            self._rate - window.frames.gyro_bias[window.newest],
+            tracks,
+            resting=resting,
+            noise_scale=noise_scale,
+        )
+        solved, wrong = window.optimise()
+        k = window.newest
+        velocity = window.frames.velocity[k]
+        if not solved or not float(np.linalg.norm(velocity)) < failure.greatest_speed:
+            self._lost = True
+            self._begin_again(tracks)
+            return
+        self._front_end.forget(wrong)
+        self._world_from_imu = Pose(
+            rotation=window.frames.rotation[k].copy(), position=window.frames.position[k].copy()
+        )
+        self._velocity = velocity.copy()
+        self._lost = False
+        self._clear_pending()
+
+    def _predict(self) -> None:
+        """Carry pose and velocity from the window's newest frame to now; a lost robot stays where it is."""
+        window = self._window
+        k = window.newest
+        frames = window.frames
+        rotation, position, velocity = propagate(
+            frames.rotation[k],
+            frames.position[k],
+            frames.velocity[k],
+            frames.gyro_bias[k],
+            frames.accel_bias[k],
+            np.concatenate(self._pending),
+        )
+        if self._lost or not float(np.linalg.norm(velocity)) < self._config.failure.greatest_speed:
+            position, velocity = self._world_from_imu.position, np.zeros(3)
+        self._world_from_imu = Pose(rotation=rotation, position=position)
+        self._velocity = velocity
+
+    def _begin_again(self, tracks: Tracks) -> None:
+        """A new window in the old world: at the pose known last, with biases kept."""
+        window = self._window
+        k = window.newest
+        self._forgotten = self._covariance_in_world()
+        self._velocity = np.zeros(3)
+        self._window_begins(
+            begin_again(
+                self._world_from_imu.rotation,
+                window.frames.gyro_bias[k].copy(),
+                window.frames.accel_bias[k].copy(),
+                self._config.start,
+            ),
+            tracks,
+        )
+
+    def _clear_pending(self) -> None:
+        self._pending = []
+        self._pending_trusted = True
+
+    # ---- standstill ------------------------------------------------------------------------------------------------
+
+    def _remember(self, inertia: Inertia) -> None:
+        self._history.append(inertia.samples)
+        longest = self._config.rest.duration if self._started else self._config.start.patience
+        while len(self._history) > 1 and sum(float(s[:, 0].sum()) for s in self._history) > longest + 1e-6:
+            self._history.popleft()
+
+    def _recent(self) -> Array:
+        return np.concatenate(self._history)
+
+    def _is_resting(self, tracks: Tracks, inertia: Inertia) -> bool:
+        if not inertia.trusted or tracks.flow > self._config.rest.flow:
+            return False
+        gyro_bias = self._window.frames.gyro_bias[self._window.newest]
+        return is_still(self._recent(), gyro_bias, self._config.rest)
+
+    # ---- reporting -------------------------------------------------------------------------------------------------
+
+    def _judge(self, tracks: Tracks, inertia: Inertia) -> tuple[OdometryQuality, str]:
+        reasons = [problem for problem in (tracks.problem, inertia.problem) if problem]
+        if tracks.number < self._config.failure.good_features:
+            reasons.append(f"only {tracks.number} features")
+        return (OdometryQuality.DEGRADED, "; ".join(reasons)) if reasons else (OdometryQuality.GOOD, "")
+
+    def _report_blind(self, tracks: Tracks) -> OdometryEstimate:
+        duration = self._blind_duration()
+        why = tracks.problem or f"only {tracks.number} features"
+        if duration > self._config.failure.blind_duration or self._lost:
+            self._lost = True
+            self._velocity = np.zeros(3)
+            return self._report(OdometryQuality.LOST, f"{why}; inertia alone for {duration:.1f} s", tracks.number)
+        return self._report(OdometryQuality.DEGRADED, f"{why}; on inertia alone", tracks.number)
+
+    def _blind_duration(self) -> float:
+        return float(sum(samples[:, 0].sum() for samples in self._pending))
+
+    def _covariance_in_world(self) -> Array:
+        covariance = self._window.pose_covariance() + self._forgotten
+        alone = self._blind_duration()
+        spread = DRIFT_SPEED * alone + DRIFT_ACCELERATION * alone**2
+        return np.asarray(covariance + np.diag(np.repeat([(0.002 * alone) ** 2, spread**2], 3)))
+
+    def _report(self, quality: OdometryQuality, reason: str, features: int) -> OdometryEstimate:
+        assert self._stamp is not None
+        world_from_body = self._world_from_imu @ self._imu_from_body
+        if self._started:
+            k = self._window.newest
+            gyro_bias, accel_bias = self._window.frames.gyro_bias[k].copy(), self._window.frames.accel_bias[k].copy()
+            rate = self._rate - gyro_bias
+            covariance = self._covariance_in_world()
+        else:
+            gyro_bias, accel_bias, rate = np.zeros(3), np.zeros(3), np.zeros(3)
+            covariance = np.diag(np.repeat([self._config.start.moving_tilt_sigma**2, 1e-6], 3))
+        lever_in_imu = self._imu_from_body.position
+        return OdometryEstimate(
+            stamp_ns=self._stamp,
+            position_in_world=world_from_body.position,
+            wxyz=wxyz_from_rotation(world_from_body.rotation),
+            velocity_in_world=self._velocity + self._world_from_imu.rotation @ np.cross(rate, lever_in_imu),
+            angular_velocity_in_body=self._body_from_imu.rotation @ rate,
+            gyro_bias=gyro_bias,
+            accel_bias=accel_bias,
+            covariance=_moved(covariance, self._world_from_imu.rotation, self._body_from_imu, lever_in_imu),
+            quality=quality,
+            reason=reason,
+            tracked_features=features,
+        )
+
+
+def _direction(samples: Array) -> Array:
+    force = samples[:, 4:7].mean(axis=0)
+    norm = float(np.linalg.norm(force))
+    return np.asarray(force / norm) if norm > 0.0 else np.array([0.0, 0.0, 1.0])
+
+
+def _moved(covariance: Array, world_from_imu: Array, body_from_imu: Pose, body_in_imu: Array) -> Array:
+    """Covariance (6, 6) of the IMU's pose as that of the body's."""
+    carry = np.eye(6)
+    carry[:3, :3] = body_from_imu.rotation
+    carry[3:, :3] = -world_from_imu @ skew(body_in_imu)
+    return np.asarray(carry @ covariance @ carry.T)

@@ -1,0 +1,199 @@
+"""Corners followed from picture to picture and from the left eye to the right (grid FAST, pyramidal Lucas-Kanade).
+
+Pictures stay raw, only points are undistorted. Every search starts where inertia and the last known depth say the
+feature went, so that small windows and few pyramid levels do.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from robot_agent.odometry.corner_grid import CornerGrid
+from robot_agent.odometry.depth_plane import fit_inverse_depth, inverse_depth
+from robot_agent.odometry.exposure import matched, picture_problem
+from robot_agent.odometry.landmarks import LEFT, RIGHT
+from robot_agent.odometry.outlier_rejection import consistent, unit_rays
+from robot_agent.odometry.tracks import Tracks
+from robot_agent.vision.camera import PinholeCamera, StereoCalibration
+from robot_agent.vision.distortion import normalise, project
+from weaver_shared.config.odometry import FrontEndConfig
+from weaver_shared.messages import StereoFrame
+from weaver_shared.transforms import Pose
+
+Array = NDArray[np.float64]
+Picture = NDArray[np.uint8]
+Mask = NDArray[np.bool_]
+
+HYPOTHESES = 60
+"""Pairs tried for the direction of travel: 99.9 % sure of one good pair at 65 % good tracks."""
+
+FIRST_INVERSE_DEPTHS = (0.02, 0.8, 1.6, 2.5)
+"""1/m, where the right eye is searched while no depth is known at all."""
+
+_STOP = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 20, 0.01)
+
+
+class FrontEnd:
+    """Follows features through a stereo sequence; `step` wants the predicted motion of the left eye."""
+
+    def __init__(self, calibration: StereoCalibration, config: FrontEndConfig) -> None:
+        self._left, self._right = calibration.left, calibration.right
+        self._config = config
+        self._grid = CornerGrid(self._left.width, self._left.height, config)
+        self._right_from_left = self._right.body_from_camera.inverse() @ self._left.body_from_camera
+        self._random = np.random.default_rng(7)
+        self._previous: Picture | None = None
+        self._next_identity = 0
+        self._identity = np.zeros(0, dtype=np.int64)
+        self._pixel = np.zeros((0, 2))  # in the left picture
+        self._depth = np.zeros(0)  # m along the left optical axis, NaN unknown
+
+    def step(self, frame: StereoFrame, left_from_previous: Pose) -> Tracks:
+        """Follow features into `frame` and find new ones."""
+        left_problem = picture_problem(frame.left, self._left.width, self._left.height, self._config)
+        if left_problem:
+            self.forget_all()
+            return Tracks.none(f"left picture {left_problem}")
+        right_problem = picture_problem(frame.right, self._right.width, self._right.height, self._config)
+        flow = self._follow(frame.left, left_from_previous)
+        self._refill(frame.left)
+        plane = normalise(self._left, self._pixel)
+        observation = np.zeros((len(plane), 2, 2))
+        observation[:, 0] = plane
+        seen = np.full(len(plane), LEFT, dtype=np.uint8)
+        if not right_problem:
+            observation[:, 1], matches = self._match(frame.left, matched(frame.right, frame.left), plane)
+            seen[matches] |= RIGHT
+        self._previous = frame.left
+        return Tracks(
+            identity=self._identity.copy(),
+            observation=observation,
+            seen=seen,
+            flow=flow,
+            problem=f"right picture {right_problem}" if right_problem else "",
+        )
+
+    def forget(self, identities: NDArray[np.int64]) -> None:
+        """Give up tracks the back end found to be wrong."""
+        if len(identities):
+            self._keep(~np.isin(self._identity, identities))
+
+    def forget_all(self) -> None:
+        self._keep(np.zeros(len(self._identity), dtype=np.bool_))
+        self._previous = None
+
+    def _keep(self, mask: Mask) -> None:
+        self._identity, self._pixel, self._depth = self._identity[mask], self._pixel[mask], self._depth[mask]
+
+    def _follow(self, picture: Picture, left_from_previous: Pose) -> float:
+        """Move all tracks into the new picture; median motion in px."""
+        if self._previous is None or len(self._pixel) == 0:
+            return float("nan")
+        before = normalise(self._left, self._pixel)
+        depth = self._assumed_depth(before)
+        moved = left_from_previous.transform(np.column_stack([before, np.ones(len(before))]) * depth[:, None])
+        guess = project(self._left, moved)
+        guess = np.where(np.isfinite(guess), guess, self._pixel)
+        found, tracked, _ = _lucas_kanade(self._previous, picture, self._pixel, guess, self._config)
+        good = tracked & self._inside(self._left, found)
+        old, self._pixel, self._depth = self._pixel, found, np.where(good, moved[:, 2], np.nan)
+        after = normalise(self._left, self._pixel)
+        turned = unit_rays(before) @ left_from_previous.rotation.T
+        rows = np.flatnonzero(good)
+        if len(rows) >= 8:
+            pairs = self._random.integers(0, len(rows), (HYPOTHESES, 2))
+            gate = self._config.epipolar_gate / self._left.fx
+            good[rows] = consistent(turned[rows], unit_rays(after)[rows], pairs, gate)
+        flow = float(np.median(np.linalg.norm(found - old, axis=1)[good])) if good.any() else float("nan")
+        self._keep(good)
+        return flow
+
+    def _refill(self, picture: Picture) -> None:
+        if len(self._pixel) > 0.92 * self._config.features:
+            return
+        corners = self._grid.refill(picture, self._pixel)
+        identities = np.arange(self._next_identity, self._next_identity + len(corners))
+        self._next_identity += len(corners)
+        self._identity = np.concatenate([self._identity, identities])
+        self._pixel = np.concatenate([self._pixel, corners])
+        self._depth = np.concatenate([self._depth, np.full(len(corners), np.nan)])
+
+    def _match(self, left: Picture, right: Picture, plane: Array) -> tuple[Array, Mask]:
+        """Find the tracks, at `plane` (n, 2) in the left eye, in the right one: coordinates there and which are good."""
+        coefficients = fit_inverse_depth(plane, self._depth)
+        if coefficients is None:
+            guesses = [np.full(len(plane), guess) for guess in FIRST_INVERSE_DEPTHS]
+        else:
+            assumed = np.where(np.isfinite(self._depth), self._depth, 1.0 / inverse_depth(coefficients, plane))
+            guesses = [1.0 / np.maximum(assumed, self._config.nearest)]
+        best = np.zeros((len(plane), 2))
+        best_error = np.full(len(plane), np.inf)
+        best_depth = np.full(len(plane), np.nan)
+        for guess in guesses:
+            where, error, depth = self._match_from(left, right, plane, guess)
+            better = error < best_error
+            best[better], best_error[better], best_depth[better] = where[better], error[better], depth[better]
+        good = np.isfinite(best_error)
+        self._depth = np.where(good, best_depth, np.nan)
+        return best, good
+
+    def _match_from(self, left: Picture, right: Picture, plane: Array, guess: Array) -> tuple[Array, Array, Array]:
+        """One search from a guessed inverse depth (n,): coordinates, error (infinite if wrong) and depth."""
+        rays = np.column_stack([plane, np.ones(len(plane))])
+        start = project(self._right, self._right_from_left.transform(rays / guess[:, None]))
+        start = np.where(np.isfinite(start), start, self._pixel)
+        found, tracked, error = _lucas_kanade(left, right, self._pixel, start, self._config)
+        where = normalise(self._right, found)
+        depth, off = _stereo_depth(self._right_from_left, rays, where)
+        good = tracked & self._inside(self._right, found) & (off * self._right.fx < self._config.epipolar_gate)
+        good &= (depth > self._config.nearest) & (depth < 100.0)
+        return where, np.where(good, error, np.inf), depth
+
+    def _assumed_depth(self, plane: Array) -> Array:
+        coefficients = fit_inverse_depth(plane, self._depth)
+        if coefficients is None:
+            known = self._depth[np.isfinite(self._depth)]
+            return np.where(np.isfinite(self._depth), self._depth, np.median(known) if len(known) else 1.0)
+        return np.where(np.isfinite(self._depth), self._depth, 1.0 / inverse_depth(coefficients, plane))
+
+    def _inside(self, camera: PinholeCamera, pixel: Array) -> Mask:
+        edge = 2.0
+        return np.asarray(
+            (pixel[:, 0] > edge)
+            & (pixel[:, 1] > edge)
+            & (pixel[:, 0] < camera.width - 1 - edge)
+            & (pixel[:, 1] < camera.height - 1 - edge)
+        )
+
+
+def _lucas_kanade(
+    first: Picture, second: Picture, pixel: Array, guess: Array, config: FrontEndConfig
+) -> tuple[Array, Mask, Array]:
+    """Where `pixel` (n, 2) of the first picture went, which were found, and their mean grey error."""
+    found, status, error = cv2.calcOpticalFlowPyrLK(
+        first,
+        second,
+        pixel.astype(np.float32).reshape(-1, 1, 2),
+        guess.astype(np.float32).reshape(-1, 1, 2),
+        winSize=(config.window, config.window),
+        maxLevel=config.levels,
+        criteria=_STOP,
+        flags=cv2.OPTFLOW_USE_INITIAL_FLOW,
+        minEigThreshold=1e-3,
+    )
+    return found.reshape(-1, 2).astype(np.float64), status.ravel() == 1, error.ravel().astype(np.float64)
+
+
+def _stereo_depth(right_from_left: Pose, rays: Array, where: Array) -> tuple[Array, Array]:
+    """Depth (n,) in the left eye by least squares, and the distance (n,) of `where` from the epipolar line."""
+    turned = rays @ right_from_left.rotation.T
+    shift = right_from_left.position
+    # x (turned_z d + shift_z) = turned_x d + shift_x, likewise for y, is linear in the depth d.
+    a = where * turned[:, 2:] - turned[:, :2]
+    b = shift[:2] - where * shift[2]
+    depth = (a * b).sum(axis=1) / np.maximum((a * a).sum(axis=1), 1e-12)
+    off = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / np.maximum(np.linalg.norm(a, axis=1), 1e-9)
+    scale = np.abs(depth * turned[:, 2] + shift[2])
+    return depth, off / np.maximum(scale, 1e-6)

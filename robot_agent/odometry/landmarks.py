@@ -1,0 +1,133 @@
+"""The points the window sees: one row a landmark, one column a frame."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robot_agent.odometry.compiled import compiled
+
+Array = NDArray[np.float64]
+
+LEFT, RIGHT = 1, 2
+"""Bits of `seen`."""
+
+
+class Landmarks(NamedTuple):
+    identity: NDArray[np.int64]  # (rows,) of the track, -1 free
+    solved: NDArray[np.bool_]  # (rows,) the point is known
+    point: Array  # (rows, 3) in world
+    observation: Array  # (rows, slots, 2, 2) eye, undistorted x and y on the plane z = 1
+    seen: NDArray[np.uint8]  # (rows, slots) bits LEFT and RIGHT
+
+    @staticmethod
+    def of(rows: int, slots: int) -> Landmarks:
+        return Landmarks(
+            identity=np.full(rows, -1, dtype=np.int64),
+            solved=np.zeros(rows, dtype=np.bool_),
+            point=np.zeros((rows, 3)),
+            observation=np.zeros((rows, slots, 2, 2)),
+            seen=np.zeros((rows, slots), dtype=np.uint8),
+        )
+
+    def remove_frame(self, slot: int) -> None:
+        """Close the gap of a frame and free the rows nobody sees any more."""
+        for array in (self.observation, self.seen):
+            array[:, slot:-1] = array[:, slot + 1 :].copy()
+        self.seen[:, -1] = 0
+        self.forget(~self.seen.any(axis=1))
+
+    def forget(self, rows: NDArray[np.bool_]) -> None:
+        self.identity[rows] = -1
+        self.solved[rows] = False
+        self.seen[rows] = 0
+
+    def see(
+        self, slot: int, identity: NDArray[np.int64], observation: Array, seen: NDArray[np.uint8]
+    ) -> NDArray[np.int64]:
+        """Enter a frame's tracks; the row of each, -1 where the table is full."""
+        known = {int(name): row for row, name in enumerate(self.identity) if name >= 0}
+        free = iter(np.flatnonzero(self.identity < 0))
+        rows = np.empty(len(identity), dtype=np.int64)
+        for n, name in enumerate(identity):
+            row = known.get(int(name), -1)
+            if row < 0:
+                row = int(next(free, -1))
+            rows[n] = row
+            if row >= 0:
+                self.identity[row] = name
+                self.observation[row, slot] = observation[n]
+                self.seen[row, slot] = seen[n]
+        return rows
+
+
+class Eyes(NamedTuple):
+    """The stereo rig: where each eye sits on the IMU."""
+
+    rotation: Array  # (2, 3, 3) camera_from_imu
+    translation: Array  # (2, 3)
+
+
+class Views(NamedTuple):
+    """Every eye of every frame as an affine map from world."""
+
+    rotation: Array  # (slots, 2, 3, 3) camera_from_world
+    translation: Array  # (slots, 2, 3)
+
+
+@compiled
+def views_of(rotation: Array, position: Array, eyes: Eyes, count: int) -> Views:
+    views = Views(np.empty((count, 2, 3, 3)), np.empty((count, 2, 3)))
+    for k in range(count):
+        imu_from_world = np.ascontiguousarray(rotation[k].T)
+        for e in range(2):
+            views.rotation[k, e] = eyes.rotation[e] @ imu_from_world
+            views.translation[k, e] = eyes.translation[e] - views.rotation[k, e] @ position[k]
+    return views
+
+
+@compiled
+def triangulate(landmarks: Landmarks, views: Views, count: int, parallax: float) -> None:
+    """Give a point to each landmark whose rays open by more than `parallax` (rad): where the rays pass nearest."""
+    least = np.cos(parallax)
+    rays = np.empty((2 * count, 3))
+    for row in range(landmarks.identity.shape[0]):
+        if landmarks.identity[row] < 0 or landmarks.solved[row]:
+            continue
+        normal = np.zeros((3, 3))
+        target = np.zeros(3)
+        found = 0
+        for k in range(count):
+            for e in range(2):
+                if not landmarks.seen[row, k] & (1 << e):
+                    continue
+                world_from_camera = np.ascontiguousarray(views.rotation[k, e].T)
+                x, y = landmarks.observation[row, k, e]
+                ray = world_from_camera @ np.array([x, y, 1.0]) / np.sqrt(x * x + y * y + 1.0)
+                centre = -world_from_camera @ views.translation[k, e]
+                across = np.eye(3) - np.outer(ray, ray)
+                normal += across
+                target += across @ centre
+                rays[found] = ray
+                found += 1
+        narrowest = 1.0
+        for a in range(found):
+            narrowest = min(narrowest, rays[0] @ rays[a])
+        if narrowest > least:
+            continue
+        point = np.linalg.solve(normal, target)
+        landmarks.solved[row] = _in_front(landmarks, views, count, row, point)
+        landmarks.point[row] = point
+
+
+@compiled
+def _in_front(landmarks: Landmarks, views: Views, count: int, row: int, point: Array) -> bool:
+    for k in range(count):
+        for e in range(2):
+            if landmarks.seen[row, k] & (1 << e):
+                depth = views.rotation[k, e, 2] @ point + views.translation[k, e, 2]
+                if not 0.05 < depth < 100.0:
+                    return False
+    return True

@@ -1,0 +1,104 @@
+"""What the window remembers of frames it let go: a quadratic in the states, linearised where they first were.
+
+First-estimate Jacobians keep the four directions no measurement can see (position and heading in world) free of
+information that inconsistent linearisation would invent.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robot_agent.odometry.window_state import STATE, Frames, copy_slot, difference, unknowns
+
+Array = NDArray[np.float64]
+
+
+class Prior:
+    """Cost 1/2 d^T H d + g^T d of the difference d between the states and their first estimates `origin`."""
+
+    def __init__(self, slots: int) -> None:
+        self.origin = Frames.of(slots)
+        self.fixed = np.zeros(slots, dtype=np.bool_)  # frames whose origin is held
+        self.hessian = np.zeros((unknowns(0), unknowns(0)))
+        self.gradient = np.zeros(unknowns(0))
+        self.count = 0
+
+    def begin(self, frames: Frames, information: Array, time_offset_sigma: float) -> None:
+        """Start with one frame of which `information` (15, 15) is known; a time offset of sigma 0 never moves."""
+        self.count = 1
+        self.fixed[:] = False
+        self.fixed[0] = True
+        copy_slot(frames, self.origin, 0)
+        self.origin.time_offset[0] = frames.time_offset[0]
+        self.hessian = np.zeros((unknowns(1), unknowns(1)))
+        self.hessian[:STATE, :STATE] = information
+        self.hessian[STATE, STATE] = 1.0 / max(time_offset_sigma, 1e-9) ** 2
+        self.gradient = np.zeros(unknowns(1))
+
+    def append_frame(self) -> None:
+        """Make room for one more frame, of which nothing is known yet."""
+        self.hessian, self.gradient = _insert(self.hessian, self.gradient, STATE * self.count)
+        self.count += 1
+
+    def linearise_at(self, frames: Frames) -> None:
+        """Let the origin of frames that are not held follow their estimates."""
+        for k in range(self.count):
+            if not self.fixed[k]:
+                copy_slot(frames, self.origin, k)
+        self.origin.rate[:] = frames.rate
+
+    def add_to(self, frames: Frames, hessian: Array, gradient: Array) -> float:
+        """Add to a system at `frames`; returns the cost relative to the origin's."""
+        d = difference(frames, self.origin, self.count)
+        pulled = self.hessian @ d
+        hessian += self.hessian
+        gradient += self.gradient + pulled
+        return float(d @ (0.5 * pulled + self.gradient))
+
+    def replace(self, frames: Frames, hessian: Array, gradient: Array) -> None:
+        """Take a system at `frames` over as what is remembered; frames it ties are held from now on."""
+        self.linearise_at(frames)
+        blocks = np.abs(hessian[:-1]).sum(axis=1).reshape(self.count, STATE).sum(axis=1)
+        self.fixed[: self.count] = blocks > 0.0
+        self.hessian = hessian
+        self.gradient = gradient - hessian @ difference(frames, self.origin, self.count)
+
+    def remove_frame(self, slot: int) -> None:
+        """Close the gap of a frame that is no longer in the system (eliminated, or never tied)."""
+        keep = np.delete(np.arange(unknowns(self.count)), np.arange(STATE * slot, STATE * (slot + 1)))
+        self.hessian = self.hessian[np.ix_(keep, keep)]
+        self.gradient = self.gradient[keep]
+        self.origin.remove(slot)
+        self.fixed[slot:-1] = self.fixed[slot + 1 :].copy()
+        self.fixed[-1] = False
+        self.count -= 1
+
+
+def eliminate(hessian: Array, gradient: Array, slot: int) -> tuple[Array, Array]:
+    """Schur complement that removes a frame's unknowns from a system but leaves their (zero) rows in place."""
+    gone = np.arange(STATE * slot, STATE * (slot + 1))
+    rest = np.delete(np.arange(len(gradient)), gone)
+    block = hessian[np.ix_(gone, gone)]
+    # Scaling to a unit diagonal first: the unknowns differ by ten orders of magnitude in information.
+    scale = 1.0 / np.sqrt(np.maximum(np.diag(block), 1e-12))
+    values, vectors = np.linalg.eigh(block * np.outer(scale, scale))
+    values = np.where(values > 1e-10, 1.0 / np.maximum(values, 1e-10), 0.0)
+    inverse = (vectors * values) @ vectors.T * np.outer(scale, scale)
+    coupling = hessian[np.ix_(rest, gone)]
+    reduced = np.zeros_like(hessian)
+    kept = hessian[np.ix_(rest, rest)] - coupling @ inverse @ coupling.T
+    reduced[np.ix_(rest, rest)] = 0.5 * (kept + kept.T)
+    remaining = np.zeros_like(gradient)
+    remaining[rest] = gradient[rest] - coupling @ (inverse @ gradient[gone])
+    return reduced, remaining
+
+
+def _insert(hessian: Array, gradient: Array, at: int) -> tuple[Array, Array]:
+    size = len(gradient)
+    place = np.concatenate([np.arange(at), np.arange(at, size) + STATE])
+    wider = np.zeros((size + STATE, size + STATE))
+    wider[np.ix_(place, place)] = hessian
+    longer = np.zeros(size + STATE)
+    longer[place] = gradient
+    return wider, longer

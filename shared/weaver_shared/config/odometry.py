@@ -1,0 +1,88 @@
+"""Settings of the stereo-inertial odometry. Pixels are those of the raw pictures; the rest is SI."""
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Positive = Annotated[float, Field(gt=0.0)]
+Count = Annotated[int, Field(gt=0)]
+
+
+class _Model(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class FrontEndConfig(_Model):
+    """Finding and following corners."""
+
+    features: Annotated[int, Field(ge=20, le=400)] = 130
+    columns: Count = 8  # of the detection grid
+    rows: Count = 6
+    spacing: Positive = 18.0  # px between two features
+    fast_threshold: Count = 12  # grey values
+    border: Count = 12  # px at the picture's edge without features
+    window: Count = 15  # px, side of the tracked square
+    levels: Count = 3  # of the pyramid above the picture itself
+    epipolar_gate: Positive = 1.5  # px
+    nearest: Positive = 0.15  # m, stereo matches closer than this are wrong
+    dark_mean: Positive = 8.0  # a picture whose mean is below is black
+    flat_deviation: Positive = 2.0  # a picture whose standard deviation is below shows nothing
+
+
+class WindowConfig(_Model):
+    """The sliding window (measured choice: 8 keyframes and the 3 newest frames)."""
+
+    keyframes: Annotated[int, Field(ge=3, le=12)] = 8
+    recent: Annotated[int, Field(ge=2, le=4)] = 3
+    keyframe_overlap: Annotated[float, Field(gt=0.0, le=1.0)] = 0.85  # a new keyframe sees less of the last one
+    keyframe_interval: Positive = 5.0  # s, the longest stretch of inertia between keyframes
+    iterations: Count = 3
+    pixel_sigma: Positive = 0.7
+    huber: Positive = 1.0  # sigma
+    gate: Positive = 4.5  # sigma, beyond it an observation is wrong
+    parallax: Positive = 0.02  # rad between two rays before they make a point
+    time_offset_sigma: Annotated[float, Field(ge=0.0)] = 0.003  # s, 0 fixes the calibrated offset
+
+
+class StartConfig(_Model):
+    """Beginning at rest, or in motion when rest does not come."""
+
+    rest_duration: Positive = 0.5  # s at rest to begin with
+    patience: Positive = 1.0  # s of waiting for rest before beginning in motion
+    gyro_bias_sigma: Positive = 0.01  # rad/s, in motion; at rest it follows from the noise
+    accel_bias_sigma: Positive = 0.05  # m/s^2, 1 sigma of the turn-on bias
+    moving_tilt_sigma: Positive = 0.05  # rad
+    moving_velocity_sigma: Positive = 0.3  # m/s
+
+
+class RestConfig(_Model):
+    """Standstill: what the IMU and the pictures may show of it."""
+
+    duration: Positive = 0.4  # s looked at
+    gyro_deviation: Positive = 0.012  # rad/s, standard deviation of each axis
+    gyro_mean: Positive = 0.01  # rad/s, after the bias is known
+    accel_deviation: Positive = 0.12  # m/s^2
+    flow: Positive = 0.35  # px, median between frames
+    velocity_sigma: Positive = 0.003  # m/s
+    rotation_sigma: Positive = 3.0e-4  # rad against the previous frame
+    position_sigma: Positive = 3.0e-4  # m against the previous frame
+
+
+class FailureConfig(_Model):
+    """When an estimate is degraded or lost."""
+
+    good_features: Count = 25  # fewer than this: degraded
+    least_features: Count = 8  # fewer than this: the frame is blind
+    blind_duration: Positive = 3.0  # s of inertia alone before the pose counts as lost
+    imu_gap: Positive = 0.05  # s between two samples
+    greatest_speed: Positive = 5.0  # m/s
+    greatest_gyro: Positive = 20.0  # rad/s
+    greatest_accel: Positive = 100.0  # m/s^2
+
+
+class OdometryConfig(_Model):
+    front_end: FrontEndConfig = FrontEndConfig()
+    window: WindowConfig = WindowConfig()
+    start: StartConfig = StartConfig()
+    rest: RestConfig = RestConfig()
+    failure: FailureConfig = FailureConfig()
