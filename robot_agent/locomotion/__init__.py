@@ -2,5 +2,6 @@
 
 from robot_agent.locomotion.walk_tick import WalkInput, WalkOutput
 from robot_agent.locomotion.walker import Walker
+from robot_agent.locomotion.warm_up import warm_up
 
-__all__ = ["WalkInput", "WalkOutput", "Walker"]
+__all__ = ["WalkInput", "WalkOutput", "Walker", "warm_up"]

@@ -112,18 +112,23 @@ def move_swinging(
             mode[leg] = STAND
             continue
         foot_velocity(velocity, stance[leg], ground)
-        if mode[leg] == SWING and progress < 1.0:
+        if mode[leg] == SWING and (progress < 1.0 or not feel_ground):
             stride_of(velocity, stance[leg], duty, frequency, stride)
             for k in range(2):
                 foothold[k] = stance[leg, k] + 0.5 * stride[k]
             z = plane[0] * foothold[0] + plane[1] * foothold[1] + plane[2]
             foothold[2] = min(max(z, lowest), highest)
             half_time = 0.5 * swing / frequency
+            if progress >= 1.0:
+                for k in range(3):
+                    place[leg, k] = foothold[k] + ground[k] * (progress - 1.0) * 2.0 * half_time
+                mode[leg] = STAND
+                continue
             speed = touchdown_speed if feel_ground else 0.0
             swing_nodes(lift_off[leg], foothold, up, swing_height[leg], ground, speed, half_time, first, second)
             swing_point(progress, first, second, place[leg])
             continue
-        if not feel_ground or touches:
+        if touches:
             mode[leg] = STAND
             continue
         mode[leg] = REACH

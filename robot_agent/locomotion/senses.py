@@ -67,6 +67,13 @@ class LegSenses:
             self.contact,
         )
 
+    def stand(self, joint_position: Array) -> None:
+        """Believe the joints at these angles, (legs, n), and every foot on the ground."""
+        self.joint_position[:] = joint_position
+        self._contact_left[:] = self._hold
+        self.contact[:] = True
+        self.measure()
+
     def measure(self) -> None:
         """Frames and centre of mass from the joint angles."""
         model = self._model

@@ -195,7 +195,6 @@ class Stepper:
         feet.place[standing] = carried
         carry(feet.anchor, linear, angular, self._dt)
         carry(feet.lift_off, body.linear, body.angular, self._dt)
-        reaching = feet.mode == REACH
         move_swinging(
             feet.mode,
             feet.place,
@@ -218,7 +217,6 @@ class Stepper:
             self._down_limit,
             float(self._nominal[:, 2].max()) + 0.16,
         )
-        del reaching
         grounded = feet.mode == STAND
         if config.feel_ground:
             grounded &= senses.contact

@@ -29,9 +29,7 @@ LOADING = 0.15
 class Walker:
     """One robot's legs. Deterministic: the same inputs give the same outputs; time comes in as `dt` s a tick."""
 
-    def __init__(
-        self, robot: RobotDescription, config: LocomotionConfig | None = None, dt: float = 0.01
-    ) -> None:
+    def __init__(self, robot: RobotDescription, config: LocomotionConfig | None = None, dt: float = 0.01) -> None:
         self._robot = robot
         self._config = config = config or LocomotionConfig()
         self._dt = dt
@@ -61,6 +59,17 @@ class Walker:
         self._previous[:] = self._angles
         self._posture = "sitting"
         self._joint_glide = self._foot_glide = None
+
+    def begin_standing(self) -> Array:
+        """Be standing at once, feet on their stance; returns the joint angles (joints,) that this means."""
+        stance = self._robot.stance_in_body
+        self._feet[:] = stance
+        self._solve(stance, np.array([0.0, 0.0, -1.0]))
+        self._previous[:] = self._angles
+        self._senses.stand(self._angles)
+        self._stepper.begin(stance, np.ones(self._load.size), self._senses.up)
+        self._posture = "standing"
+        return self._angles.ravel().copy()
 
     def step(self, sensed: WalkInput) -> WalkOutput:
         """One control tick. Readings and orders that are not finite are replaced and named in `reasons`."""

@@ -76,9 +76,7 @@ def test_the_next_segment_begins_inside_the_circle_of_acceptance():
 
 
 @settings(max_examples=60, deadline=None)
-@given(
-    x=st.floats(-2.0, 6.0), y=st.floats(-3.0, 3.0), yaw=st.floats(-np.pi, np.pi), goal_y=st.floats(-2.0, 2.0)
-)
+@given(x=st.floats(-2.0, 6.0), y=st.floats(-3.0, 3.0), yaw=st.floats(-np.pi, np.pi), goal_y=st.floats(-2.0, 2.0))
 def test_the_last_waypoint_is_reached_from_anywhere(x, y, yaw, goal_y):
     waypoints = (*PATH, Waypoint(x=5.0, y=goal_y))
     places, done = walk(waypoints, x, y, yaw)

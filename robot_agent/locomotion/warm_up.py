@@ -1,0 +1,53 @@
+"""Compiles the walker's kernels, so that nothing is compiled inside a running loop."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from robot_agent.locomotion.walk_tick import WalkInput
+from robot_agent.locomotion.walker import Walker
+from weaver_shared.config.locomotion import LocomotionConfig
+from weaver_shared.messages import GaitParameters
+from weaver_shared.robots import RobotDescription, load_robot
+
+
+def warm_up(robot: RobotDescription | None = None) -> None:
+    """Walk a robot (Weaver unless told otherwise) for a stride with and without ground contact."""
+    robot = robot or load_robot()
+    for feel_ground in (True, False):
+        tick = walking_tick(robot, LocomotionConfig(feel_ground=feel_ground), frequency=1.0)
+        for _ in range(120):
+            tick()
+
+
+def walking_tick(
+    robot: RobotDescription, config: LocomotionConfig, *, frequency: float, dt: float = 0.01
+) -> Callable[[], None]:
+    """A robot walking on nothing but its own commands, as a function that takes one tick; for timing and warming up."""
+    walker = Walker(robot, config, dt)
+    joints = walker.begin_standing()
+    parameters = GaitParameters(
+        stamp_ns=0, virtual_stiffness=1000.0, stride_frequency=frequency, stride_height=0.05, confidence=1.0
+    )
+    velocity, gravity = np.array([0.1, 0.02, 0.05]), np.array([0.0, 0.0, -1.0])
+    contact = np.ones(robot.leg_count, dtype=np.bool_)
+    torque = np.full(robot.joint_count, 0.1)
+
+    def tick() -> None:
+        nonlocal joints
+        sensed = WalkInput(
+            stamp_ns=0,
+            velocity=velocity,
+            parameters=parameters,
+            gait="tripod",
+            stand=True,
+            joint_position=joints,
+            joint_torque=torque,
+            foot_contact=contact,
+            gravity_in_body=gravity,
+        )
+        joints = walker.step(sensed).joint_position
+
+    return tick
