@@ -7,12 +7,11 @@ from xml.etree import ElementTree as Xml
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from sim_agent.model.links import Link, leg_links
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import rotation_z, rpy_from_rotation
 
 Array = NDArray[np.float64]
-
-from sim_agent.model.links import Link, leg_links
 
 
 def robot_urdf(robot: RobotDescription) -> str:

@@ -89,8 +89,9 @@ class ServoBank:
 
     def present_torque(self) -> Array:
         """Torque (joints,) in N m by the measured current, as the servos can tell it: friction included."""
-        measured: Array = np.round(self._current / CURRENT_UNIT) * CURRENT_UNIT
-        return measured * self._parameters[:, 0]
+        measured = np.round(self._current / CURRENT_UNIT) * CURRENT_UNIT
+        torque: Array = measured * self._parameters[:, 0]
+        return torque
 
     def present_temperature(self) -> Array:
         """Winding temperature (joints,) in whole degrees Celsius."""

@@ -53,7 +53,7 @@ def _fractal(generator: np.random.Generator) -> Array:
     fx, fy = np.fft.fftfreq(n, CELL), np.fft.rfftfreq(n, CELL)
     k = np.hypot(fx[:, None], fy[None, :])
     shape = np.where(k > 0.0, np.maximum(k, LOWEST_FREQUENCY) ** -(BETA / 2 + 0.5), 0.0)
-    z = np.fft.irfft2(spectrum * shape, s=(n, n))
+    z = np.pad(np.fft.irfft2(spectrum * shape, s=(n, n)), ((0, 1), (0, 1)), mode="wrap")
     scaled: Array = z * (RELIEF / (z.max() - z.min()))
     return scaled
 
