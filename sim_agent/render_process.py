@@ -1,0 +1,111 @@
+"""The simulated cameras as a process of their own: scenes in from the bus, stereo pairs and previews out.
+
+Drawing holds Python's interpreter lock for tens of milliseconds, which neither physics nor walking could bear.
+"""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+import threading
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from sim_agent.render_timing import RenderTiming
+from sim_agent.rendering import StereoRenderer
+from sim_agent.worlds import WORLD_NAMES, make_world
+from weaver_shared import topics
+from weaver_shared.bus import Bus, ZenohBus
+from weaver_shared.errors import WeaverError
+from weaver_shared.latest import LatestSlot
+from weaver_shared.messages import CameraPicture, Event, SceneState, Severity
+from weaver_shared.robots import RobotDescription, load_robot
+
+PREVIEW_SIZE = (320, 240)  # px
+PREVIEW_QUALITY = 70  # of JPEG
+HEALTH_PERIOD = 0.5  # s
+
+
+def main(arguments: list[str] | None = None) -> int:
+    options = _parser().parse_args(arguments)
+    robot = load_robot(options.robot)
+    world = make_world(options.world, options.seed)
+    cv2.setNumThreads(1)
+    stopping = threading.Event()
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: stopping.set())
+    bus = ZenohBus(connect=options.connect)
+    try:
+        renderer = StereoRenderer(robot, world, options.seed)
+        try:
+            render_scenes(bus, options.robot_id, robot, renderer, stopping)
+        finally:
+            renderer.close()
+    finally:
+        bus.close()
+    return 0
+
+
+def render_scenes(
+    bus: Bus, robot_id: str, robot: RobotDescription, renderer: StereoRenderer, stopping: threading.Event
+) -> None:
+    """Draw the newest scene again and again until `stopping` is set; scenes it has no time for are left out."""
+    scenes: LatestSlot[SceneState] = LatestSlot()
+    bus.subscribe(robot_id, topics.SCENE, lambda _robot, _key, scene: scenes.put(scene))
+    bus.announce(robot_id, "render")
+    if renderer.warning:
+        warning = Event(stamp_ns=0, severity=Severity.WARNING, source="render", text=renderer.warning)
+        bus.publish(robot_id, topics.EVENT, warning)
+    timing = RenderTiming(robot.camera.rate)
+    every = max(round(robot.camera.rate / topics.CAMERA.rate), 1)
+    overwritten = 0
+    while not stopping.is_set():
+        scene = scenes.take(timeout=0.1)
+        if scene is not None:
+            # Counted from the stamp, so that a frame that was left out leaves a gap, and lock step counts alike.
+            sequence = frame_sequence(robot, scene.stamp_ns)
+            frame = renderer.render(scene, sequence)
+            bus.publish(robot_id, topics.STEREO, frame)
+            timing.rendered(scene.stamp_ns)
+            if sequence % every == 0:
+                picture = CameraPicture(stamp_ns=frame.stamp_ns, name="left", jpeg=preview(frame.left))
+                bus.publish(robot_id, topics.CAMERA, picture, name=picture.name)
+        if timing.seconds >= HEALTH_PERIOD:
+            lost = scenes.overwritten
+            bus.publish(robot_id, topics.HEALTH, timing.report(lost - overwritten), process="render")
+            overwritten = lost
+
+
+def frame_sequence(robot: RobotDescription, stamp_ns: int) -> int:
+    """The number of the frame exposed at this stamp, counted on the control clock from its start."""
+    return round(stamp_ns * 1e-9 * robot.camera.rate)
+
+
+def preview(picture: NDArray[np.uint8]) -> bytes:
+    """A small JPEG of a grey picture, for people."""
+    small = cv2.resize(picture, PREVIEW_SIZE, interpolation=cv2.INTER_AREA)
+    _, encoded = cv2.imencode(".jpg", small, [cv2.IMWRITE_JPEG_QUALITY, PREVIEW_QUALITY])
+    return bytes(encoded)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m sim_agent.render_process", description=__doc__.splitlines()[0])
+    parser.add_argument("--robot-id", required=True, help="robot on the bus whose cameras these are")
+    parser.add_argument("--robot", default="weaver", help="robot description: a name or a TOML file")
+    parser.add_argument("--world", default="testbed", help=f"one of {', '.join(WORLD_NAMES)}")
+    parser.add_argument("--seed", type=int, default=1, help="of world and sensor noise, from 0 up")
+    parser.add_argument(
+        "--connect", action="append", default=[], metavar="ENDPOINT", help="bus endpoint such as tcp/127.0.0.1:7447"
+    )
+    return parser
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except WeaverError as failure:
+        print(f"render: {failure}", file=sys.stderr)
+        sys.exit(2)
