@@ -4,6 +4,7 @@ Angles are in rad, leg by leg in the order of `joint_names`; positions are in me
 """
 
 import numpy as np
+
 from weaver_shared.robots import load_robot
 from weaver_shared.robots.forward_kinematics import feet_in_body, joint_frames_in_body
 
