@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from robot_agent.evaluation.trajectory import trajectory_metrics
+from robot_agent.evaluation.trajectory import Trajectory, evaluate, path_length
 
 from robot_agent.evaluation.energy import cost_of_transport
 from sim_agent.lock_step import Moment
@@ -61,7 +61,7 @@ class RunLog:
             return {}
         energy = self._energy(rows)
         return {
-            "distance": _path_length(rows[:, 1:3]),
+            "distance": path_length(rows[:, 1:3]),
             "duration": float(rows[-1, 0] - rows[0, 0]),
             "cost_of_transport": {"total": energy.total, "motors": energy.motors},
             "segments": self._segments(rows),
@@ -85,19 +85,23 @@ class RunLog:
             supply_power=rows[:, 8],
             motor_power=rows[:, 9],
             dt=self.dt,
-            distance=_path_length(rows[:, 1:3]),
+            distance=path_length(rows[:, 1:3]),
             mass=self.mass,
         )
 
     def _odometry(self, rows: Array) -> dict[str, float]:
-        estimated = np.array(self._estimated)
-        truth = np.column_stack([np.interp(estimated[:, 0], rows[:, 0], rows[:, k]) for k in (1, 2, 3)])
-        metrics = trajectory_metrics(estimated[:, 1:4], truth)
+        errors = evaluate(_trajectory(np.array(self._estimated)), _trajectory(rows[:, :8]))
         return {
-            "drift_percent": metrics.drift_percent,
-            "final_error": metrics.final_error,
-            "ate_m": metrics.ate_m,
+            "drift_percent": errors.drift_percent,
+            "final_error": errors.final_error,
+            "ate_m": errors.ate_m,
         }
+
+
+def _trajectory(rows: Array) -> Trajectory:
+    """From rows of time (s), position (m) and wxyz."""
+    stamps = np.rint(rows[:, 0] * 1e9).astype(np.int64)
+    return Trajectory(stamp_ns=stamps, position=rows[:, 1:4], wxyz=rows[:, 4:8])
 
 
 def _adapted(report: AdaptationReport) -> tuple[float, ...]:
@@ -109,13 +113,3 @@ def _adapted(report: AdaptationReport) -> tuple[float, ...]:
         applied.stride_frequency,
         applied.stride_height,
     )
-
-
-def _path_length(xy: Array, spacing: float = 0.05) -> float:
-    """Length of a walked path in m, measured over chords of `spacing` so that body sway does not count."""
-    length, last = 0.0, xy[0]
-    for point in xy[1:]:
-        step = float(np.hypot(*(point - last)))
-        if step >= spacing:
-            length, last = length + step, point
-    return length + float(np.hypot(*(xy[-1] - last)))

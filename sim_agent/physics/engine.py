@@ -101,14 +101,16 @@ class Engine:
 
     def world_from_body(self) -> Pose:
         centre, xyzw = pybullet.getBasePositionAndOrientation(self._body, physicsClientId=self._client)
-        pose = Pose.of(centre, (xyzw[3], xyzw[0], xyzw[1], xyzw[2]))
-        return Pose(rotation=pose.rotation, position=pose.position - pose.rotation @ self._centre_in_body)
+        rotation = np.array(pybullet.getMatrixFromQuaternion(xyzw)).reshape(3, 3)
+        return Pose(rotation=rotation, position=np.array(centre) - rotation @ self._centre_in_body)
 
     def velocity_of(self, point_in_body: Array, rotation: Array) -> tuple[Array, Array]:
         """Linear (3,) m/s and angular (3,) rad/s velocity in world of a point of the trunk."""
         linear, angular = pybullet.getBaseVelocity(self._body, physicsClientId=self._client)
-        spin = np.array(angular)
-        return np.array(linear) + np.cross(spin, rotation @ (point_in_body - self._centre_in_body)), spin
+        wx, wy, wz = angular
+        x, y, z = rotation @ (point_in_body - self._centre_in_body)
+        velocity = np.array([linear[0] + wy * z - wz * y, linear[1] + wz * x - wx * z, linear[2] + wx * y - wy * x])
+        return velocity, np.array(angular)
 
     def foot_forces(self) -> Array:
         """Ground reaction on every leg's last link in world, (legs, 3) N, of the last step."""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from weaver_shared.frames import GRAVITY
 from weaver_shared.messages import ImuBatch
 from weaver_shared.robots.description import Imu
-from weaver_shared.transforms import rotation_exp, rotation_log
 
 Array = NDArray[np.float64]
 
@@ -66,11 +66,31 @@ class InertialSensor:
         return batch
 
 
+@njit(cache=True)  # type: ignore[untyped-decorator]
 def interval_means(
     before: Array, after: Array, velocity_before: Array, velocity_after: Array, dt: float
 ) -> tuple[Array, Array]:
     """Mean angular rate and specific force in the IMU's frame between two states (rotations (3, 3), m/s in world)."""
-    turn = rotation_log(before.T @ after)
-    halfway = before @ rotation_exp(0.5 * turn)
-    acceleration = (velocity_after - velocity_before) / dt + np.array([0.0, 0.0, GRAVITY])
-    return turn / dt, halfway.T @ acceleration
+    acceleration = (velocity_after - velocity_before) / dt
+    acceleration[2] += GRAVITY
+    change = before.T @ after
+    # Logarithm by the antisymmetric part: exact for the small turns of an interval, however small.
+    axis = 0.5 * np.array([change[2, 1] - change[1, 2], change[0, 2] - change[2, 0], change[1, 0] - change[0, 1]])
+    sine = np.sqrt(axis[0] ** 2 + axis[1] ** 2 + axis[2] ** 2)
+    angle = np.arctan2(sine, 0.5 * (change[0, 0] + change[1, 1] + change[2, 2] - 1.0))
+    turn = axis * (angle / sine) if sine > 0.0 else axis
+    # The frame halfway through the turn sees the mean force: rotate by half the angle, backwards (Rodrigues).
+    force = before.T @ acceleration
+    if sine > 0.0:
+        unit = axis / sine
+        cosine, half_sine = np.cos(0.5 * angle), np.sin(0.5 * angle)
+        along = unit[0] * force[0] + unit[1] * force[1] + unit[2] * force[2]
+        across = np.array(
+            [
+                unit[1] * force[2] - unit[2] * force[1],
+                unit[2] * force[0] - unit[0] * force[2],
+                unit[0] * force[1] - unit[1] * force[0],
+            ]
+        )
+        force = cosine * force - half_sine * across + (1.0 - cosine) * along * unit
+    return turn / dt, force

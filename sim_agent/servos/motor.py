@@ -20,7 +20,7 @@ BRISTLE_STIFFNESS = 60.0  # N m/rad, gear wind-up before friction lets go (chose
 TORQUE_CONSTANT, RESISTANCE, SUPPLY, GAIN, STALL, COULOMB, VISCOUS = range(7)
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def servo_torque(
     goal: Array,
     position: Array,

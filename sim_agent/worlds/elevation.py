@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def highest_box(x: Array, y: Array, centre: Array, half: Array, rotation: Array, height: Array) -> None:
     """Raise `height` (n,) to the top of any box (centre (m, 3), half (m, 3), rotation (m, 3, 3)) above (x, y)."""
     for k in range(centre.shape[0]):
@@ -32,7 +32,7 @@ def highest_box(x: Array, y: Array, centre: Array, half: Array, rotation: Array,
                 height[i] = max(height[i], centre[k, 2] + high)
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def heightfield_elevation(x: Array, y: Array, x0: float, y0: float, cell: float, z: Array, height: Array) -> None:
     """Raise `height` (n,) to the triangulated grid z (nx, ny); points beside the grid are left as they are."""
     nx, ny = z.shape
