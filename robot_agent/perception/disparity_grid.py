@@ -143,7 +143,7 @@ class DisparityGrid:
         )
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def _list_points(
     disparity: NDArray[np.int16],
     projection: _Projection,
@@ -195,7 +195,7 @@ def _list_points(
     return listed
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def _average_tops(
     count: int, points: _Points, top: NDArray[np.float32], band: float, min_points: int
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
@@ -220,7 +220,7 @@ def _average_tops(
     return elevation, variance
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def _drop_lonely(elevation: NDArray[np.float32], companions: int, step: float) -> None:
     """Forget cells with fewer than `companions` cells near their height about them: mistakes of the matcher."""
     size = elevation.shape[0]

@@ -86,9 +86,9 @@ def characterise(features: Array, coverage: float, area: float, noise: float, co
     step_noise = config.peak_weight * noise / config.step_norm
     return Roughness(
         roughness=roughness,
-        roughness_sigma=float(np.hypot(relative * roughness, roughness_noise)),
+        roughness_sigma=min(1.0, float(np.hypot(relative * roughness, roughness_noise))),
         step_height=step_height,
-        step_height_sigma=float(np.hypot(relative * step_height, step_noise)),
+        step_height_sigma=min(1.0, float(np.hypot(relative * step_height, step_noise))),
     )
 
 

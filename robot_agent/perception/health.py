@@ -68,7 +68,7 @@ def _score(value: float, bad_good: tuple[float, float]) -> float:
     return float(np.clip((value - bad) / (good - bad), 0.0, 1.0))
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def _windows(
     left: Picture, right: Picture, disparity: NDArray[np.int16], half: int, stride: int
 ) -> NDArray[np.float64]:
@@ -100,7 +100,7 @@ def _windows(
     return result
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def _deviation(picture: Picture, v: int, u: int, half: int) -> float:
     total, squares, n = 0.0, 0.0, (2 * half + 1) ** 2
     for i in range(v - half, v + half + 1):
@@ -111,7 +111,7 @@ def _deviation(picture: Picture, v: int, u: int, half: int) -> float:
     return float(np.sqrt(max(0.0, squares / n - (total / n) ** 2)))
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def _detail(picture: Picture, v: int, u: int, half: int, down: int, right: int) -> float:
     """Mean absolute difference of pixels two apart in one direction."""
     total = 0.0
@@ -121,7 +121,7 @@ def _detail(picture: Picture, v: int, u: int, half: int, down: int, right: int) 
     return total / (2 * half + 1) ** 2
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def _correlation(left: Picture, right: Picture, v: int, u: int, v_right: int, u_right: int, half: int) -> float:
     """Normalised cross-correlation of two windows, -1..1; 0 where one of them is constant."""
     a = b = aa = bb = ab = 0.0

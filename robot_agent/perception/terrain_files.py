@@ -1,0 +1,113 @@
+"""Point clouds and elevation grids from NPZ files, whatever their makers called things."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weaver_shared.errors import InputError
+
+Array = NDArray[np.float64]
+
+CLOUD_KEYS = ("xyz", "points", "cloud", "point_cloud")
+GRID_KEYS = ("elevation", "height", "heights", "dem", "z")
+NORMAL_KEYS = ("table_normal", "ground_normal", "plane_normal", "up")
+CELL_KEYS = ("resolution", "cell", "cell_size", "dx")
+DEGREE = 111_320.0
+"""Metres of a degree of latitude: the spacing of grids given in degrees."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cloud:
+    """Valid points (n, 3) in m and the labelled up direction, if the file has one; the label is for comparison only."""
+
+    points: Array
+    labelled_up: Array | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ElevationGrid:
+    """Heights (rows, columns) in m, NaN unknown, of square cells of `cell` m; up is +z."""
+
+    heights: Array
+    cell: float
+
+
+def load_terrain(path: Path, scale: float = 1.0) -> Cloud | ElevationGrid:
+    """Read a cloud or grid, all its lengths times `scale`.
+
+    Raises InputError that says what was found and what would be valid.
+    """
+    if not path.is_file():
+        raise InputError(f"{path} is not a file; a terrain is an .npz file with a point cloud or an elevation grid")
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            if not isinstance(archive, Mapping):
+                raise InputError(f"{path} holds a bare array; a terrain is an .npz file with named arrays")
+            arrays = {key: archive[key] for key in archive}
+    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
+        raise InputError(f"{path} can not be read as an .npz file: {error}") from error
+    for key in CLOUD_KEYS:
+        if key in arrays and arrays[key].shape[-1:] == (3,):
+            return _cloud(arrays[key], _first(arrays, NORMAL_KEYS), path, scale)
+    for key in GRID_KEYS:
+        if key in arrays and arrays[key].ndim == 2:
+            return _grid(arrays[key], arrays, path, scale)
+    found = ", ".join(f"{key} {array.shape}" for key, array in arrays.items()) or "nothing"
+    raise InputError(
+        f"{path} holds {found}; expected a cloud ({' or '.join(CLOUD_KEYS)}, shape (n, 3) or (h, w, 3)) "
+        f"or a grid ({' or '.join(GRID_KEYS)}, shape (rows, columns))"
+    )
+
+
+def without_fill_value(heights: Array) -> Array:
+    """The grid with an unobserved-cell value of zero made NaN.
+
+    Zero is taken for such a value when it lies far under every other height, by more than ten of the grid's own steps,
+    and all others are positive; a grid that marks unknown cells with NaN is left alone.
+    """
+    if np.isnan(heights).any() or not (heights == 0.0).any():
+        return heights
+    levels = np.unique(heights)
+    if len(levels) < 3 or levels[0] < 0.0:
+        return heights
+    step = float(np.median(np.diff(levels[1:])))
+    return np.where(heights == 0.0, np.nan, heights) if levels[1] > 10.0 * step else heights
+
+
+def _cloud(xyz: NDArray[np.generic], normal: NDArray[np.generic] | None, path: Path, scale: float) -> Cloud:
+    points = np.asarray(xyz, dtype=np.float64).reshape(-1, 3)
+    points = points[np.isfinite(points).all(axis=1) & (np.abs(points) > 0.0).any(axis=1)]
+    if len(points) < 100:
+        raise InputError(f"{path} has {len(points)} valid points; 100 are needed")
+    up = None
+    if normal is not None and normal.shape == (3,) and float(np.linalg.norm(normal)) > 0.0:
+        up = np.asarray(normal, dtype=np.float64)
+        up = up / np.linalg.norm(up)
+    return Cloud(points=points * scale, labelled_up=up)
+
+
+def _grid(
+    heights: NDArray[np.generic], arrays: Mapping[str, NDArray[np.generic]], path: Path, scale: float
+) -> ElevationGrid:
+    cell = _first(arrays, CELL_KEYS)
+    if cell is None or cell.size != 1 or not float(cell.reshape(())) > 0.0:
+        raise InputError(f"{path}: an elevation grid needs its cell length in m ({' or '.join(CELL_KEYS)})")
+    length = float(cell.reshape(()))
+    if "xmin" in arrays and "dx" in arrays and length < 0.01:
+        length *= DEGREE
+    metres = np.asarray(heights, dtype=np.float64)
+    if not np.issubdtype(heights.dtype, np.integer):
+        metres = without_fill_value(metres)
+    if np.isfinite(metres).sum() < 100:
+        raise InputError(f"{path} has {int(np.isfinite(metres).sum())} known cells; 100 are needed")
+    return ElevationGrid(heights=metres * scale, cell=length * scale)
+
+
+def _first(arrays: Mapping[str, NDArray[np.generic]], keys: tuple[str, ...]) -> NDArray[np.generic] | None:
+    return next((arrays[key] for key in keys if key in arrays), None)
