@@ -1,6 +1,7 @@
 """A built wheel is whole: installed elsewhere, without the tree, it has its commands, its robots and its page."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -8,6 +9,8 @@ import sysconfig
 import venv
 import zipfile
 from pathlib import Path
+from urllib.parse import urljoin
+from urllib.request import urlopen
 
 import pytest
 
@@ -51,9 +54,14 @@ def pip(*arguments: str) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+def environment() -> dict[str, str]:
+    return {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
+
+
 def run(place: Path, *command: str) -> subprocess.CompletedProcess[str]:
-    variables = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
-    return subprocess.run(command, cwd=place, env=variables, capture_output=True, text=True, check=False, timeout=120)
+    return subprocess.run(
+        command, cwd=place, env=environment(), capture_output=True, text=True, check=False, timeout=120
+    )
 
 
 def test_the_wheel_holds_page_robots_and_every_module(wheel: Path) -> None:
@@ -87,3 +95,23 @@ def test_nothing_is_imported_from_the_tree(installed: Path) -> None:
 def test_the_installed_robots_load(installed: Path) -> None:
     done = run(installed, "bin/python", "-c", "from weaver_shared.robots import load_robot; print(load_robot().name)")
     assert done.stdout == "weaver\n", done.stderr
+
+
+def test_the_installed_console_serves_the_page(installed: Path) -> None:
+    command = ["bin/weaver", "console", "--port", "0", "--listen", "tcp/127.0.0.1:0", "--no-scene"]
+    with subprocess.Popen(command, cwd=installed, env=environment(), stdout=subprocess.PIPE, text=True) as console:
+        try:
+            assert console.stdout is not None
+            address = console.stdout.readline().split()[-1]
+            page = fetch(address)
+            assert "<title>Weaver Console</title>" in page
+            script = re.search(r'src="(/assets/[^"]+\.js)"', page)
+            assert script is not None
+            assert len(fetch(urljoin(address, script[1]))) > 100_000
+        finally:
+            console.terminate()
+
+
+def fetch(address: str) -> str:
+    with urlopen(address, timeout=30.0) as reply:
+        return str(reply.read().decode())
