@@ -108,7 +108,6 @@ def _print(report: dict[str, Any], compared: bool) -> None:
         print("no ground truth: no errors to report")
         return
     drift = "standing" if report["drift_percent"] is None else f"{report['drift_percent']:.2f} % drift"
-    print(
-        f"ATE {report['ate_m']:.4f} m, final error {report['final_error']:.4f} m over {report['path_length']:.2f} m, {drift}"
-    )
+    print(f"ATE {report['ate_m']:.4f} m over {report['path_length']:.2f} m")
+    print(f"final error {report['final_error']:.4f} m, {drift}")
     print(f"gravity {report['gravity_error_deg']:.2f} degrees off (median)")

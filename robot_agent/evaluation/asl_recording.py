@@ -133,7 +133,7 @@ def interval_means(instants: ImuBatch) -> ImuBatch:
     """Samples taken at instants as means over the intervals between them: without it, everything lags half a sample."""
 
     def means(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-        return 0.5 * (rows + np.concatenate([rows[:1], rows[:-1]]))
+        return np.asarray(0.5 * (rows + np.concatenate([rows[:1], rows[:-1]])))
 
     return ImuBatch(
         stamp_ns=instants.stamp_ns,

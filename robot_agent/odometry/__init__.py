@@ -1,4 +1,4 @@
-"""Stereo-inertial odometry: a keyframe sliding window over tracked corners and preintegrated inertia (ICRA'17 III-A)."""
+"""Stereo-inertial odometry: a keyframe sliding window over corners and preintegrated inertia (ICRA'17 III-A)."""
 
 from robot_agent.odometry.estimator import StereoInertialOdometry
 from robot_agent.odometry.propagator import NavigationState, StatePropagator

@@ -17,7 +17,7 @@ class CornerGrid:
 
     def __init__(self, width: int, height: int, config: FrontEndConfig) -> None:
         self._config = config
-        self._detector = cv2.FastFeatureDetector_create(threshold=config.fast_threshold, nonmaxSuppression=True)
+        self._detector = cv2.FastFeatureDetector.create(threshold=config.fast_threshold, nonmaxSuppression=True)
         columns = np.linspace(config.border, width - config.border, config.columns + 1).astype(int)
         rows = np.linspace(config.border, height - config.border, config.rows + 1).astype(int)
         self._columns, self._rows = columns, rows

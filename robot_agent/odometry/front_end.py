@@ -121,7 +121,7 @@ class FrontEnd:
         self._depth = np.concatenate([self._depth, np.full(len(corners), np.nan)])
 
     def _match(self, left: Picture, right: Picture, plane: Array) -> tuple[Array, Mask]:
-        """Find the tracks, at `plane` (n, 2) in the left eye, in the right one: coordinates there and which are good."""
+        """Find the tracks, at `plane` (n, 2) in the left eye, in the right one: where, and which are good."""
         coefficients = fit_inverse_depth(plane, self._depth)
         if coefficients is None:
             guesses = [np.full(len(plane), guess) for guess in FIRST_INVERSE_DEPTHS]

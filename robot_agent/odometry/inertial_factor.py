@@ -102,5 +102,5 @@ def add_inertia(
         begin = STATE * (k - 1)
         hessian[begin : begin + 30, begin : begin + 30] += weighted @ jacobian
         gradient[begin : begin + 30] += weighted @ residual
-        cost += 0.5 * residual @ (weight @ residual)
+        cost += 0.5 * float(residual @ (weight @ residual))
     return cost

@@ -37,7 +37,7 @@ class Landmarks(NamedTuple):
         for array in (self.observation, self.seen):
             array[:, slot:-1] = array[:, slot + 1 :].copy()
         self.seen[:, -1] = 0
-        self.forget(~self.seen.any(axis=1))
+        self.forget(np.asarray(self.seen.max(axis=1) == 0))
 
     def forget(self, rows: NDArray[np.bool_]) -> None:
         self.identity[rows] = -1
@@ -96,8 +96,8 @@ def triangulate(landmarks: Landmarks, views: Views, count: int, parallax: float)
     for row in range(landmarks.identity.shape[0]):
         if landmarks.identity[row] < 0 or landmarks.solved[row]:
             continue
-        normal = np.zeros((3, 3))
-        target = np.zeros(3)
+        normal: Array = np.zeros((3, 3))
+        target: Array = np.zeros(3)
         found = 0
         for k in range(count):
             for e in range(2):
@@ -117,7 +117,7 @@ def triangulate(landmarks: Landmarks, views: Views, count: int, parallax: float)
             narrowest = min(narrowest, rays[0] @ rays[a])
         if narrowest > least:
             continue
-        point = np.linalg.solve(normal, target)
+        point = np.linalg.solve(normal, target).astype(np.float64)
         landmarks.solved[row] = _in_front(landmarks, views, count, row, point)
         landmarks.point[row] = point
 

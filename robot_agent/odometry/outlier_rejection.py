@@ -14,10 +14,10 @@ def off_plane(direction: Array, before: Array, after: Array) -> float:
     nx = direction[1] * before[2] - direction[2] * before[1]
     ny = direction[2] * before[0] - direction[0] * before[2]
     nz = direction[0] * before[1] - direction[1] * before[0]
-    length = np.sqrt(nx * nx + ny * ny + nz * nz)
+    length = float(np.sqrt(nx * nx + ny * ny + nz * nz))
     if length < 1e-9:
         return 0.0
-    return abs(nx * after[0] + ny * after[1] + nz * after[2]) / length
+    return float(abs(nx * after[0] + ny * after[1] + nz * after[2])) / length
 
 
 @compiled

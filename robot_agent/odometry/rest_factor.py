@@ -57,5 +57,5 @@ def add_rest(
         transposed = np.ascontiguousarray(jacobian.T)
         hessian[base : base + 2 * STATE, base : base + 2 * STATE] += transposed @ jacobian
         gradient[base : base + 2 * STATE] += transposed @ residual
-        cost += 0.5 * residual @ residual
+        cost += 0.5 * float(residual @ residual)
     return cost

@@ -59,7 +59,8 @@ def logarithm(m: Array) -> Array:
     sine = 0.5 * np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
     angle = np.arctan2(sine, cosine)
     if sine > 1e-6:
-        return v * (0.5 * angle / sine)
+        turned: Array = v * (0.5 * angle / sine)
+        return turned
     if cosine > 0.0:
         return 0.5 * v
     k = 0
@@ -68,7 +69,8 @@ def logarithm(m: Array) -> Array:
             k = i
     axis = 0.5 * (m[:, k] + m[k, :])
     axis[k] += 1.0
-    return axis * (angle / np.sqrt(np.sum(axis * axis)))
+    half_turn: Array = axis * (angle / np.sqrt(np.sum(axis * axis)))
+    return half_turn
 
 
 @compiled
