@@ -66,7 +66,7 @@ class CommandDesk:
         self._events: deque[Event] = deque(maxlen=1000)
         self._stop_level = ""
         self._stand = False
-        self._gait = robot.gaits[0]
+        self._gait: str = robot.gaits[0]
         self._teleop: TeleopFrame | None = None
         self._teleop_heard_ns = 0
         self._teleop_sequence = -1
@@ -277,7 +277,7 @@ class CommandDesk:
     def _set_gait(self, command: Command) -> Answer:
         if command.name not in self._robot.gaits:
             return self._refuse(f"gait {command.name!r:.40} is unknown; known are {', '.join(self._robot.gaits)}")
-        self._gait = command.name  # type: ignore[assignment]
+        self._gait = command.name
         return self._accept()
 
     def _teleop_velocity(self, now_ns: int) -> np.ndarray | None:

@@ -7,13 +7,14 @@ Classical Denavit-Hartenberg rows (theta, d, r, alpha): RotZ(theta + q) TransZ(d
 from math import cos, sin
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True)
+@kernel
 def leg_frames(
     dh: Array, hip_in_body: Array, hip_yaw: float, joint_position: Array, origins: Array, axes: Array
 ) -> None:
@@ -41,14 +42,14 @@ def leg_frames(
     origins[n, 0], origins[n, 1], origins[n, 2] = px, py, pz
 
 
-@njit(cache=True)
+@kernel
 def all_leg_frames(dh: Array, hips: Array, hip_yaws: Array, joint_position: Array, origins: Array, axes: Array) -> None:
     """`leg_frames` of every leg: `joint_position` (legs, n), `origins` (legs, n + 1, 3), `axes` (legs, n, 3)."""
     for leg in range(hips.shape[0]):
         leg_frames(dh, hips[leg], hip_yaws[leg], joint_position[leg], origins[leg], axes[leg])
 
 
-@njit(cache=True)
+@kernel
 def foot_jacobian(origins: Array, axes: Array, jacobian: Array) -> None:
     """Fill `jacobian` (3, n): foot velocity in body over joint rates, from the frames of one leg."""
     n = axes.shape[0]
@@ -59,7 +60,7 @@ def foot_jacobian(origins: Array, axes: Array, jacobian: Array) -> None:
         jacobian[2, i] = axes[i, 0] * ry - axes[i, 1] * rx
 
 
-@njit(cache=True)
+@kernel
 def solve_symmetric(m: Array, b: Array, x: Array) -> bool:
     """Solve the 3x3 system m x = b by cofactors; False, and x untouched, where m is singular."""
     a00, a01, a02, a11, a12, a22 = m[0, 0], m[0, 1], m[0, 2], m[1, 1], m[1, 2], m[2, 2]

@@ -9,8 +9,9 @@ inside the plane leaves n alone, so where d itself can not be had the least tilt
 from math import acos, atan2, cos, hypot, pi, sin, sqrt
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
@@ -20,7 +21,7 @@ STRAIGHT = 0.9998
 """Fraction of the stretched femur and tibia that may be used, short of the singularity."""
 
 
-@njit(cache=True)
+@kernel
 def solve_closed_form(
     dh: Array, limits: Array, hip_in_body: Array, hip_yaw: float, foot_in_body: Array, direction: Array, solution: Array
 ) -> bool:
@@ -74,7 +75,7 @@ def solve_closed_form(
     return False
 
 
-@njit(cache=True)
+@kernel
 def _planar(dh: Array, limits: Array, fu: float, fv: float, heading: float, solution: Array) -> bool:
     """Femur, tibia and tarsus for the foot (fu, fv) with the last link at angle `heading`; False beyond a limit."""
     upper, lower, last = dh[2, 2], dh[3, 2], dh[4, 2]
@@ -90,8 +91,9 @@ def _planar(dh: Array, limits: Array, fu: float, fv: float, heading: float, solu
     femur = (femur + pi) % (2.0 * pi) - pi
     tarsus = (heading - femur - tibia + pi) % (2.0 * pi) - pi
     solution[2], solution[3], solution[4] = femur, tibia, tarsus
-    return (
+    within: bool = (
         limits[2, 0] <= femur <= limits[2, 1]
         and limits[3, 0] <= tibia <= limits[3, 1]
         and limits[4, 0] <= tarsus <= limits[4, 1]
     )
+    return within

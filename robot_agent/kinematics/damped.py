@@ -3,10 +3,10 @@
 from math import sqrt
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from robot_agent.kinematics.chain import foot_jacobian, leg_frames, solve_symmetric
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
@@ -16,7 +16,7 @@ ITERATIONS = 24
 ALIGNMENT_GAIN = 0.3
 
 
-@njit(cache=True)
+@kernel
 def solve_damped(
     dh: Array,
     limits: Array,
@@ -65,7 +65,7 @@ def solve_damped(
     return best
 
 
-@njit(cache=True)
+@kernel
 def _normal_matrix(jacobian: Array, damping: float, normal: Array) -> None:
     for a in range(3):
         for b in range(3):
@@ -74,7 +74,7 @@ def _normal_matrix(jacobian: Array, damping: float, normal: Array) -> None:
                 normal[a, b] += jacobian[a, i] * jacobian[b, i]
 
 
-@njit(cache=True)
+@kernel
 def _alignment(origins: Array, axes: Array, direction: Array, align: Array) -> None:
     """Joint steps that turn the last link towards `direction`: its rotation error seen along each joint axis."""
     n = axes.shape[0]

@@ -1,10 +1,10 @@
 """Ground forces on the feet from joint torques: tau = -J^T F + gravity of the links."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from robot_agent.kinematics.chain import foot_jacobian, solve_symmetric
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
@@ -13,7 +13,7 @@ DAMPING = 1e-4
 """m^2, keeps a stretched leg from answering with endless forces."""
 
 
-@njit(cache=True)
+@kernel
 def link_gravity_torque(origins: Array, axes: Array, link_mass: Array, gravity_in_body: Array, torque: Array) -> None:
     """Fill `torque` (n,) N m that the servos of one leg spend on holding its own links.
 
@@ -33,7 +33,7 @@ def link_gravity_torque(origins: Array, axes: Array, link_mass: Array, gravity_i
             torque[i] -= link_mass[j] * GRAVITY * moment
 
 
-@njit(cache=True)
+@kernel
 def foot_forces(
     origins: Array, axes: Array, link_mass: Array, gravity_in_body: Array, joint_torque: Array, force: Array
 ) -> None:

@@ -1,10 +1,10 @@
 """Inverse kinematics of all legs: closed form where the chain has one, damped least squares otherwise."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from robot_agent.kinematics.closed_form import solve_closed_form
+from robot_agent.kinematics.compiled import kernel
 from robot_agent.kinematics.damped import solve_damped
 
 Array = NDArray[np.float64]
@@ -13,7 +13,7 @@ TOLERANCE = 1e-6
 """Distance, m, at which the iteration is content."""
 
 
-@njit(cache=True)
+@kernel
 def solve_leg(
     dh: Array,
     limits: Array,
@@ -39,7 +39,7 @@ def solve_leg(
     return solve_damped(dh, limits, hip_in_body, hip_yaw, foot_in_body, direction, TOLERANCE, solution)
 
 
-@njit(cache=True)
+@kernel
 def solve_legs(
     dh: Array,
     limits: Array,

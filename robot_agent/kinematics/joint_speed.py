@@ -1,13 +1,14 @@
 """Joint speed limits that keep feet on their paths: a leg too fast is slowed as a whole, never joint by joint."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True)
+@kernel
 def limit_joint_speed(
     previous: Array, wanted: Array, speed_limit: Array, together: NDArray[np.bool_], dt: float
 ) -> float:
@@ -34,7 +35,7 @@ def limit_joint_speed(
     return shared
 
 
-@njit(cache=True)
+@kernel
 def _shorten(previous: Array, wanted: Array, factor: float) -> None:
     for i in range(wanted.size):
         wanted[i] = previous[i] + factor * (wanted[i] - previous[i])
