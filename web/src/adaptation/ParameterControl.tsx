@@ -22,7 +22,10 @@ export function ParameterControl({ parameter, seconds }: { parameter: Parameter;
     <div className="parameter" data-overridden={override.active}>
       <div className="parameter-head">
         <h3>{label}</h3>
-        <Switch label={`Override ${label}`} checked={override.active} disabled={hindrance !== null} onChange={override.toggle} />
+        <span className="override-state">
+          {override.active ? "held by operator" : "automatic"}
+        </span>
+        <Switch shown="Override" label={`Override ${label}`} checked={override.active} disabled={hindrance !== null} onChange={override.toggle} />
       </div>
       <div className="parameter-body">
         <div className="readings">
@@ -48,9 +51,6 @@ export function ParameterControl({ parameter, seconds }: { parameter: Parameter;
           {fixed(upper, digits)} {unit}
         </span>
       </div>
-      <p className="override-state">
-        {override.active ? `Held at ${fixed(value, digits)} ${unit} by an operator` : "Follows the ground"}
-      </p>
     </div>
   );
 }

@@ -26,14 +26,13 @@ export function Reading({ label, source, value, unit, children, compact = false 
       <span className="reading-value">
         <span className="number">{shown}</span>
         {unit !== undefined && shown !== UNKNOWN && <span className="unit">{unit}</span>}
-        {level !== "live" && <Age level={level} age={age} />}
-        {!gone && children}
+        {level === "live" ? children : <Age level={level} age={age} />}
       </span>
     </div>
   );
 }
 
 function Age({ level, age }: { level: "stale" | "lost" | "never"; age: number }) {
-  const text = { stale: `${spokenAge(age)} old`, lost: `lost ${spokenAge(age)} ago`, never: "no data" }[level];
-  return <span className="age">{text}</span>;
+  if (level === "never") return <span className="visually-hidden">no data</span>;
+  return <span className="age">{level === "stale" ? `${spokenAge(age)} old` : `lost, ${spokenAge(age)}`}</span>;
 }

@@ -6,10 +6,11 @@ interface SwitchProps {
   checked: boolean;
   onChange(checked: boolean): void;
   disabled?: boolean;
-  description?: string;
+  /** A shorter text to show where the place says the rest. */
+  shown?: string;
 }
 
-export function Switch({ label, checked, onChange, disabled = false, description }: SwitchProps) {
+export function Switch({ label, checked, onChange, disabled = false, shown }: SwitchProps) {
   const id = useId();
   const toggleOnEnter = (event: KeyboardEvent<HTMLInputElement>) => {
     if (event.key !== "Enter" || disabled) return;
@@ -26,14 +27,9 @@ export function Switch({ label, checked, onChange, disabled = false, description
         disabled={disabled}
         onChange={(event) => onChange(event.currentTarget.checked)}
         onKeyDown={toggleOnEnter}
-        aria-describedby={description === undefined ? undefined : `${id}-description`}
+        aria-label={label}
       />
-      <label htmlFor={id}>{label}</label>
-      {description !== undefined && (
-        <span id={`${id}-description`} className="hint">
-          {description}
-        </span>
-      )}
+      <label htmlFor={id}>{shown ?? label}</label>
     </div>
   );
 }

@@ -8,6 +8,7 @@ import { type Point, toScreen, toWorld } from "./projection";
 import { useMapDrawing } from "./useMapDrawing";
 import { useMapView } from "./useMapView";
 import { MapTools } from "./MapTools";
+import { PoseReading } from "./PoseReading";
 
 /** Pixels around a waypoint that count as on it; a finger needs room. */
 const REACH = 20;
@@ -82,6 +83,7 @@ export function MapCanvas() {
         {MAP_HELP}
       </p>
       <MapTools map={map} />
+      <PoseReading />
     </div>
   );
 }

@@ -19,7 +19,6 @@ export function CoordinateInput({ label, name, value, onCommit }: CoordinateInpu
   };
   return (
     <label className="coordinate">
-      <span aria-hidden>{label}</span>
       <input
         type="text"
         inputMode="decimal"
@@ -29,9 +28,6 @@ export function CoordinateInput({ label, name, value, onCommit }: CoordinateInpu
         onBlur={commit}
         onKeyDown={(event) => event.key === "Enter" && commit()}
       />
-      <span className="unit" aria-hidden>
-        m
-      </span>
     </label>
   );
 }

@@ -55,7 +55,7 @@ interface RowButtonProps {
 
 function RowButton({ label, sign, disabled = false, onPress }: RowButtonProps) {
   return (
-    <ActionIcon variant="subtle" color="gray" size="md" aria-label={label} title={label} disabled={disabled} onClick={onPress}>
+    <ActionIcon variant="subtle" color="gray" size="sm" aria-label={label} title={label} disabled={disabled} onClick={onPress}>
       <span aria-hidden>{sign}</span>
     </ActionIcon>
   );

@@ -1,6 +1,7 @@
 /** Which leg stood and which swung over the last seconds: a filled bar is stance. */
 import { useComputedColorScheme } from "@mantine/core";
 import { useEffect, useRef } from "react";
+import type { SwingSample } from "../console/history";
 import { history } from "../console/live";
 import { selectedRobot } from "../console/control";
 import { useConsole } from "../console/store";
@@ -56,13 +57,26 @@ function draw(canvas: HTMLCanvasElement, count: number, legs: readonly string[],
     context.fillStyle = colours.swing;
     context.fillRect(LABEL, leg * ROW + 4.5, width - LABEL, ROW - 9);
     context.fillStyle = colours.stance;
-    samples.forEach((sample, k) => {
-      const until = samples[k + 1]?.seconds ?? now;
-      if (until < now - SPAN || sample.swing[leg] === true) return;
-      const left = Math.max(x(sample.seconds), LABEL);
-      context.fillRect(left, leg * ROW + 1.5, Math.max(x(until) - left, 0), ROW - 3);
-    });
+    for (const [from, until] of stances(samples, leg, now)) {
+      if (until < now - SPAN) continue;
+      const left = Math.max(x(from), LABEL);
+      context.fillRect(left, leg * ROW + 1.5, x(until) - left, ROW - 3);
+    }
   }
+}
+
+/** Intervals in which the leg stood, in seconds of the robot's clock. */
+function stances(samples: readonly SwingSample[], leg: number, now: number): [from: number, until: number][] {
+  const intervals: [number, number][] = [];
+  let from: number | null = null;
+  for (const { seconds, swing } of samples) {
+    if (swing[leg] === true && from !== null) {
+      intervals.push([from, seconds]);
+      from = null;
+    } else if (swing[leg] === false) from ??= seconds;
+  }
+  if (from !== null) intervals.push([from, now]);
+  return intervals;
 }
 
 function spoken(swing: readonly boolean[] | undefined, legs: readonly string[]): string {

@@ -21,17 +21,17 @@ export function LinkReadings() {
     <dl className="link" aria-label="Link">
       <div data-bad={downLost} title="From the robot: age of its last heartbeat, and states a second">
         <dt>
-          <span aria-hidden>↓</span> from robot
+          <span aria-hidden>↓</span> robot
         </dt>
         <dd>{!open || down === null ? "none" : downLost ? `${spokenAge(down)} silent` : `${spokenAge(down)}, ${rate} Hz`}</dd>
       </div>
       <div data-bad={up === null} title="To the console and back, and to the robot and back for the last command">
         <dt>
-          <span aria-hidden>↑</span> to console
+          <span aria-hidden>↑</span> console
         </dt>
         <dd>
           {up === null ? "none" : `${milliseconds(up)} ms`}
-          {robotRoundTrip !== null && up !== null && `, robot ${milliseconds(robotRoundTrip)} ms`}
+          {robotRoundTrip !== null && up !== null && <span className="unit">, robot {milliseconds(robotRoundTrip)} ms</span>}
         </dd>
       </div>
     </dl>
