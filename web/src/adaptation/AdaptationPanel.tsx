@@ -10,7 +10,7 @@ const DURATIONS = [
   { value: "60", label: "for 1 min" },
   { value: "300", label: "for 5 min" },
   { value: "1800", label: "for 30 min" },
-  { value: "0", label: "until released" },
+  { value: "3600", label: "for 1 h" },
 ];
 
 export function AdaptationPanel() {

@@ -28,9 +28,12 @@ export function hindrance(state: ConsoleState, command: CommandName): string | n
   if (!holdsControl(state)) return "take control first";
   const mode = latest(state, "state/mode")?.value;
   if (mode === undefined) return "the robot has not told its state yet";
-  if (mode.allowed.includes(command)) return null;
+  if (mode.allowed.includes(command) || (command === "stand" && UPRIGHT.has(mode.mode))) return null;
   return mode.reasons[0] ?? `not possible in ${mode.mode}`;
 }
+
+/** Standing up again does no harm, so it is not refused here. */
+const UPRIGHT = new Set(["STAND", "WALK", "HOLD"]);
 
 export function useHindrance(command: CommandName): string | null {
   return useConsole((state) => hindrance(state, command));

@@ -6,6 +6,7 @@ import type { TileMessage } from "../map/tiles";
 import { useDraft } from "../mission/draftStore";
 import { settleAnswer, settleAllUnanswered } from "./commands";
 import { holdsControl } from "./control";
+import { tellLossOfControl } from "./controlLoss";
 import { newPageId, rememberOperator, socketAddress } from "./identity";
 import { history, terrain } from "./live";
 import { expireNotices, notify } from "./notices";
@@ -79,7 +80,9 @@ function flush(): void {
   if (messages.length === 0) return;
   const now = performance.now();
   const stored = messages.filter((message) => !(message.type === "value" && message.key.startsWith("tele/map/")));
-  useConsole.setState((state) => ({ ...receive(state, stored, now), now }));
+  const before = useConsole.getState();
+  useConsole.setState({ ...receive(before, stored, now), now });
+  tellLossOfControl(before, useConsole.getState());
   for (const message of messages) react(message, now);
 }
 

@@ -14,8 +14,9 @@ export interface Ink {
   truth: string;
 }
 
-/** Radius within which a waypoint counts as reached, m (ICRA'17 III-B, chosen). */
-export const ACCEPTANCE_RADIUS = 0.25;
+/** Distance at which the robot turns to the next waypoint, and at which the last one is reached, m (ICRA'17 III-B). */
+const ACCEPTANCE_RADIUS = 0.5;
+const GOAL_RADIUS = 0.1;
 /** Size of the drawn body, m. */
 const BODY = { length: 0.56, width: 0.26 };
 const WAYPOINT_PIXELS = 11;
@@ -73,11 +74,12 @@ export interface WaypointMark {
   number: number;
   selected: boolean;
   reached: boolean;
+  last: boolean;
 }
 
 export function drawWaypoint(context: Context, view: View, mark: WaypointMark, ink: Ink): void {
   const { x, y } = toScreen(view, mark.waypoint);
-  circle(context, x, y, ACCEPTANCE_RADIUS * view.scale);
+  circle(context, x, y, (mark.last ? GOAL_RADIUS : ACCEPTANCE_RADIUS) * view.scale);
   context.setLineDash([3, 3]);
   strokeWithHalo(context, ink, ink.path, 1);
   context.setLineDash([]);

@@ -15,7 +15,8 @@ export function MissionButtons({ unsent }: { unsent: boolean }) {
 
   const upload = async () => (await command("set_mission", { waypoints: draft.waypoints })).accepted;
   const start = async () => {
-    if (!unsent || (await upload())) await command("start_mission");
+    // NOTE: a mission that was walked is sent again, the robot does not repeat one by itself.
+    if ((!unsent && mission?.phase !== "done") || (await upload())) await command("start_mission");
   };
   const clear = () => {
     dispatch({ type: "clear" });

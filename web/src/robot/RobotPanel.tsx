@@ -32,7 +32,7 @@ export function RobotPanel() {
           Sit
         </CommandButton>
         {stopped && <p className="hint">The stop is latched. Release it when the ground around the robot is clear.</p>}
-        <CommandButton name="release_stop" variant={stopped ? "filled" : "default"} color="orange" className="grow">
+        <CommandButton name="release_stop" variant={stopped ? "filled" : "default"} color="yellow" className="grow">
           Release stop
         </CommandButton>
         <GaitPicker />

@@ -2,6 +2,7 @@
 import { Button } from "@mantine/core";
 import { useState } from "react";
 import { command } from "../console/commands";
+import { expectRelease } from "../console/controlLoss";
 import { holder, holdsControl, selectedRobot } from "../console/control";
 import { useConsole } from "../console/store";
 import { TakeOverDialog } from "./TakeOverDialog";
@@ -17,6 +18,7 @@ export function LeaseControl() {
   const ask = async (name: "take_control" | "release_control", reason?: string) => {
     setAsking(false);
     setWaiting(true);
+    if (name === "release_control") expectRelease();
     await command(name, reason === undefined ? {} : { reason });
     setWaiting(false);
   };

@@ -29,11 +29,12 @@ export function StatusPill() {
 function useStatus(): Status {
   const connection = useConsole((state) => state.connection);
   const robot = useConsole(selectedRobot);
+  const none = useConsole((state) => state.robots.length === 0);
   const mode = useLatest("state/mode");
   const { level, age } = useFreshness("state/mode");
   if (connection === "connecting") return quiet("CONNECTING", "looking for the console");
   if (connection !== "open") return { tone: "danger", state: "NO LINK", words: "console unreachable", reasons: [] };
-  if (robot === undefined) return quiet("NO ROBOT", "choose a robot");
+  if (robot === undefined) return quiet("NO ROBOT", none ? "waiting for one to appear" : "choose one");
   if (!robot.alive || level === "lost") {
     const silence = mode === undefined ? "no state heard" : `last heard ${spokenAge(age)} ago as ${mode.mode}`;
     return { tone: "danger", state: "LOST", words: "robot silent", reasons: [silence] };
