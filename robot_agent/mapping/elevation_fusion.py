@@ -29,13 +29,13 @@ class Extent(NamedTuple):
     column_end: int
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def predicted_variance(variance: float, seconds: float, rules: FusionRules) -> float:
     """A cell not seen for a while is less certain, up to the ceiling: it is kept, never forgotten."""
     return min(variance + rules.drift * rules.drift * seconds, max(variance, rules.ceiling * rules.ceiling))
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def fuse(
     measured: NDArray[np.float32],
     measured_variance: NDArray[np.float32],

@@ -70,7 +70,7 @@ def _weights(features: FeatureConfig) -> _Weights:
     )
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def _contributions(elevation: Grid, variance: Grid, cell: float, edge_height: float) -> NDArray[np.float64]:
     """What each cell adds to the sums, (rows, columns, SUMS); heights about the grid's mean against rounding."""
     rows, columns = elevation.shape
@@ -118,7 +118,7 @@ def _relative_sigmas(window: int, cell: float) -> NDArray[np.float64]:
     return np.asarray(np.sqrt(unseen**2 + 0.5 / samples), dtype=np.float64)
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def _slide(  # noqa: PLR0915
     contributions: NDArray[np.float64], half: int, fewest: float, weights: _Weights, relative: NDArray[np.float64]
 ) -> tuple[Grid, Grid, Grid, Grid, Grid]:
@@ -181,7 +181,7 @@ def _slide(  # noqa: PLR0915
     return roughness, roughness_sigma, step_height, step_height_sigma, slope
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def _add(sums: NDArray[np.float64], terms: NDArray[np.float64], sign: float) -> None:
     for k in range(sums.shape[0]):
         sums[k] += sign * terms[k]

@@ -80,11 +80,10 @@ class _Cells(NamedTuple):
 
 
 class _Points(NamedTuple):
-    """Accepted points in the order met: flat cell index, height, variance of the height."""
+    """Accepted points in the order met: flat cell index and height."""
 
     cell: NDArray[np.int32]
     height: NDArray[np.float32]
-    variance: NDArray[np.float32]
 
 
 class DisparityGrid:
@@ -97,7 +96,6 @@ class DisparityGrid:
         self._points = _Points(
             cell=np.empty(pixels, dtype=np.int32),
             height=np.empty(pixels, dtype=np.float32),
-            variance=np.empty(pixels, dtype=np.float32),
         )
         self._half = math.ceil(config.reach / config.cell)
         disparity = np.maximum(np.arange(LARGEST_DISPARITY * SUBPIXELS), 1) / SUBPIXELS
@@ -131,8 +129,9 @@ class DisparityGrid:
         gate = _Gate(a=a, b=b, c=c, height=config.height_gate, slope=config.gate_slope, reach=config.reach)
         cells = _Cells(row0=row, column0=column, size=size, cell=config.cell)
         top = np.full(size * size, -np.inf, dtype=np.float32)
-        count = _list_points(disparity, projection, gate, cells, self._points, top)
-        elevation, variance = _average_tops(count, self._points, top, config.top_band, config.min_points)
+        variance = np.full(size * size, np.nan, dtype=np.float32)
+        count = _list_points(disparity, projection, gate, cells, self._points, top, variance)
+        elevation = _average_tops(count, self._points, top, variance, config.top_band, config.min_points)
         _drop_lonely(elevation.reshape(size, size), config.companions, config.companion_step)
         return HeightGrid(
             row0=row,
@@ -151,13 +150,20 @@ def _list_points(
     cells: _Cells,
     points: _Points,
     top: NDArray[np.float32],
+    variance: NDArray[np.float32],
 ) -> int:
-    """List the points within reach and gate; `top` gets each cell's highest. Returns how many there are."""
+    """List the points within reach and gate; `top` gets each cell's highest. Returns their number."""
     height, width = disparity.shape
     rotation, position = projection.rotation, projection.position
+    # World direction of each column, to which a row adds its own; scaled to cells in the plane.
     per_cell = 1.0 / cells.cell
-    largest = projection.depths.shape[0] - 1
-    reach_squared = gate.reach * gate.reach
+    x_column = rotation[0, 0] * projection.columns
+    y_column = rotation[1, 0] * projection.columns
+    z_column = rotation[2, 0] * projection.columns
+    x0, y0 = position[0] * per_cell - cells.row0, position[1] * per_cell - cells.column0
+    ground = gate.a * position[0] + gate.b * position[1] + gate.c
+    smallest, largest = projection.smallest, projection.depths.shape[0] - 1
+    reach_squared, slope_squared = gate.reach * gate.reach, gate.slope * gate.slope
     listed = 0
     for v in range(BORDER, height - BORDER):
         row_slope = projection.rows[v]
@@ -166,48 +172,52 @@ def _list_points(
         z_row = rotation[2, 1] * row_slope + rotation[2, 2]
         for u in range(width):
             d = disparity[v, u]
-            if d < projection.smallest or d > largest:
+            if d < smallest or d > largest:
                 continue
             depth = projection.depths[d]
-            slope = projection.columns[u]
-            dx = depth * (rotation[0, 0] * slope + x_row)
-            dy = depth * (rotation[1, 0] * slope + y_row)
+            dx, dy = depth * (x_column[u] + x_row), depth * (y_column[u] + y_row)
             distance_squared = dx * dx + dy * dy
             if distance_squared > reach_squared:
                 continue
-            z_slope = rotation[2, 0] * slope + z_row
-            x, y, z = position[0] + dx, position[1] + dy, position[2] + depth * z_slope
-            expected = gate.a * x + gate.b * y + gate.c
-            if abs(z - expected) > gate.height + gate.slope * math.sqrt(distance_squared):
+            z_slope = z_column[u] + z_row
+            z = position[2] + depth * z_slope
+            beyond = abs(z - ground - gate.a * dx - gate.b * dy) - gate.height
+            if beyond > 0.0 and beyond * beyond > slope_squared * distance_squared:
                 continue
-            row = math.floor(x * per_cell) - cells.row0
-            column = math.floor(y * per_cell) - cells.column0
+            row, column = int(x0 + dx * per_cell), int(y0 + dy * per_cell)
             if row < 0 or row >= cells.size or column < 0 or column >= cells.size:
                 continue
             index = row * cells.size + column
-            # A depth error moves the point along its ray; its height moves by the ray's vertical part.
-            sigma = projection.depth_sigmas[d] * z_slope
             points.cell[listed] = index
             points.height[listed] = z
-            points.variance[listed] = sigma * sigma
             listed += 1
-            top[index] = max(top[index], z)
+            top[index] = max(top[index], np.float32(z))
+            # A depth error moves the point along its ray; its height moves by the ray's vertical part. The points of
+            # one cell differ little in this.
+            sigma = projection.depth_sigmas[d] * z_slope
+            variance[index] = sigma * sigma
     return listed
 
 
 @njit(cache=True)
 def _average_tops(
-    count: int, points: _Points, top: NDArray[np.float32], band: float, min_points: int
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Mean and variance of the points in the band under each cell's highest: its top without a maximum's bias."""
+    count: int,
+    points: _Points,
+    top: NDArray[np.float32],
+    variance: NDArray[np.float32],
+    band: float,
+    min_points: int,
+) -> NDArray[np.float32]:
+    """Mean of the points in the band under each cell's highest: its top without a maximum's bias upwards.
+
+    `variance` goes from that of one point to that of the mean.
+    """
     elevation = np.zeros(top.shape[0], dtype=np.float32)
-    variance = np.zeros(top.shape[0], dtype=np.float32)
     number = np.zeros(top.shape[0], dtype=np.int32)
     for k in range(count):
         index = points.cell[k]
         if points.height[k] >= top[index] - band:
             elevation[index] += points.height[k]
-            variance[index] += points.variance[k]
             number[index] += 1
     for index in range(top.shape[0]):
         n = number[index]
@@ -216,8 +226,8 @@ def _average_tops(
             variance[index] = np.nan
         else:
             elevation[index] /= n
-            variance[index] /= n * (1.0 + (n - 1) / INDEPENDENT_POINTS)
-    return elevation, variance
+            variance[index] /= 1.0 + (n - 1) / INDEPENDENT_POINTS
+    return elevation
 
 
 @njit(cache=True)
