@@ -7,13 +7,14 @@ response is the same at any control rate. Offsets are positive upwards: a foot p
 from math import cos, cosh, exp, sin, sinh, sqrt
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True)
+@kernel
 def transition(mass: float, damping: float, stiffness: float, dt: float, step: Array) -> None:
     """Fill `step` (2, 3): the transition matrix of (x, x') and, in the last column, the response to 1 N."""
     decay = -0.5 * damping / mass
@@ -35,7 +36,7 @@ def transition(mass: float, damping: float, stiffness: float, dt: float, step: A
     step[1, 2] = -step[1, 0] / stiffness
 
 
-@njit(cache=True)
+@kernel
 def step_admittance(state: Array, force: Array, step: Array, largest_offset: float) -> None:
     """Advance `state` (legs, 2), offset m and its rate, by one tick under `force` (legs,) N, in place.
 

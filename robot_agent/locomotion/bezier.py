@@ -1,13 +1,14 @@
 """Quartic Bezier curves, five nodes each (OpenSHC'20 eq. 17)."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True)
+@kernel
 def quartic(nodes: Array, t: float, point: Array) -> None:
     """Fill `point` (3,) with the curve of `nodes` (5, 3) at t in 0..1."""
     s = 1.0 - t
@@ -16,7 +17,7 @@ def quartic(nodes: Array, t: float, point: Array) -> None:
         point[k] = b0 * nodes[0, k] + b1 * nodes[1, k] + b2 * nodes[2, k] + b3 * nodes[3, k] + b4 * nodes[4, k]
 
 
-@njit(cache=True)
+@kernel
 def quartic_derivative(nodes: Array, t: float, slope: Array) -> None:
     """Fill `slope` (3,) with the derivative over t; divide by the curve's duration for a velocity."""
     s = 1.0 - t

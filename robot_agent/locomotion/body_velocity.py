@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.workspace import velocity_scale
 
 Array = NDArray[np.float64]
@@ -16,7 +16,7 @@ TURN_RADIUS = 0.4
 """m, about a foot's distance from the middle: weighs turning against translation."""
 
 
-@njit(cache=True)
+@kernel
 def limit_velocity(
     wanted: Array,
     stance: Array,
@@ -38,7 +38,7 @@ def limit_velocity(
     return scale * further
 
 
-@njit(cache=True)
+@kernel
 def approach(current: Array, target: Array, speed_up: float, slow_down: float, dt: float) -> None:
     """Move `current` (3,) towards `target` in place, by at most `speed_up` or, when slowing, `slow_down` m/s^2."""
     dx, dy, dw = target[0] - current[0], target[1] - current[1], TURN_RADIUS * (target[2] - current[2])

@@ -5,9 +5,9 @@ down, up to a limit, while the gait waits.
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.stride import foot_velocity, stride_of, swing_nodes, swing_point
 
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ class Feet:
         self.lifted[:] = False
 
 
-@njit(cache=True)
+@kernel
 def carry(points: Array, linear: Array, angular: Array, dt: float) -> None:
     """Move `points` (n, 3), fixed to the ground, as a body sees them that moves with a twist (m/s, rad/s in body).
 
@@ -55,7 +55,7 @@ def carry(points: Array, linear: Array, angular: Array, dt: float) -> None:
         points[i, 2] = z + sine * cz + versine * (wx * cy - wy * cx)
 
 
-@njit(cache=True)
+@kernel
 def lift(
     leg: int, mode: NDArray[np.int64], place: Array, lift_off: Array, offset: Array, up: Array, height: float,
     swing_height: Array, lifted: Flags, reached: Array,
@@ -71,7 +71,7 @@ def lift(
     reached[leg] = 0.0
 
 
-@njit(cache=True)
+@kernel
 def move_swinging(
     mode: NDArray[np.int64],
     place: Array,
@@ -80,6 +80,7 @@ def move_swinging(
     plane: Array,
     up: Array,
     velocity: Array,
+    pace: float,
     swing_height: Array,
     reached: Array,
     contact: Flags,
@@ -97,7 +98,8 @@ def move_swinging(
     """Move every foot in the air by one tick; returns how many still reach for the ground.
 
     `stance` (legs, 3) is the middle of each foot's stance, `plane` (3,) the expected ground, `leg_phase` (legs,) 0 at
-    lift-off. Footholds stay between `lowest` and `highest`, z in body.
+    lift-off. The body moves with `pace` times `velocity`; paths are planned for full pace, since the gait slows with
+    the body. Footholds stay between `lowest` and `highest`, z in body.
     """
     first, second = np.empty((5, 3)), np.empty((5, 3))
     foothold, ground, stride = np.empty(3), np.empty(3), np.empty(3)
@@ -133,7 +135,7 @@ def move_swinging(
             continue
         mode[leg] = REACH
         for k in range(3):
-            place[leg, k] += (ground[k] - touchdown_speed * up[k]) * dt
+            place[leg, k] += (pace * ground[k] - touchdown_speed * up[k]) * dt
         reached[leg] += touchdown_speed * dt
         if reached[leg] > reach_down or place[leg, 2] < lowest:
             mode[leg] = HANG

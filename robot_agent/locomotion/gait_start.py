@@ -1,9 +1,9 @@
 """Where in the stride to begin, so that feet left anywhere by the last stop do not run out of their range."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.stride import stride_of
 
 Array = NDArray[np.float64]
@@ -11,7 +11,7 @@ Array = NDArray[np.float64]
 AT_ONCE = 1e-9
 
 
-@njit(cache=True)
+@kernel
 def best_start(place: Array, stance: Array, velocity: Array, offset: Array, duty: float, frequency: float) -> float:
     """Common phase, one of those at which a leg lifts, after which no foot strays far before its own first swing."""
     stride = np.empty(3)
@@ -31,7 +31,7 @@ def best_start(place: Array, stance: Array, velocity: Array, offset: Array, duty
     return best
 
 
-@njit(cache=True)
+@kernel
 def overrun(mode: NDArray[np.int64], place: Array, stance: Array, velocity: Array, half_stride: float) -> float:
     """How far, in half strides, the farthest foot on the ground is from its stance while being left behind further."""
     worst = 0.0

@@ -1,15 +1,15 @@
 """The plane the feet stand on: z = a x + b y + c in body, from where the feet really are."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from robot_agent.kinematics import solve_symmetric
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True)
+@kernel
 def fit_plane(points: Array, weight: Array, plane: Array) -> float:
     """Fill `plane` (3,) with a, b, c by weighted least squares over `points` (n, 3); returns the rms residual, m.
 

@@ -1,15 +1,15 @@
 """How the robot's weight is shared among its feet: the least forces in balance with gravity."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from robot_agent.kinematics import solve_symmetric
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True)
+@kernel
 def share_load(feet_in_body: Array, centre_of_mass: Array, up: Array, share: Array, weight: float, load: Array) -> None:
     """Fill `load` (legs,) N along `up`: minimal sum of load^2 / share under balance of force and moments.
 
@@ -47,7 +47,7 @@ def share_load(feet_in_body: Array, centre_of_mass: Array, up: Array, share: Arr
             load[leg] *= weight / carried
 
 
-@njit(cache=True)
+@kernel
 def _beside(foot: Array, centre: Array, up: Array) -> tuple[float, float]:
     """Horizontal place of a foot against the centre of mass, seen along gravity."""
     height = (foot[2] - centre[2]) / up[2]

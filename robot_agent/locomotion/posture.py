@@ -7,13 +7,14 @@ because height and attitude are measured, not assumed (inclination control of IC
 from math import sqrt
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True)
+@kernel
 def wanted_up(up: Array, plane: Array, follow_ground: float, result: Array) -> None:
     """Fill `result` (3,) with the direction in body its z axis should point at: between gravity's up and the normal."""
     norm = sqrt(plane[0] ** 2 + plane[1] ** 2 + 1.0)
@@ -26,7 +27,7 @@ def wanted_up(up: Array, plane: Array, follow_ground: float, result: Array) -> N
         result[k] /= sqrt(length)
 
 
-@njit(cache=True)
+@kernel
 def attitude_rate(wanted: Array, gain: float, limit: float, dead_band: float, rate: Array) -> None:
     """Fill `rate` (2,), roll and pitch rate of the body in rad/s, that turns its z axis towards `wanted` (3,)."""
     error_x, error_y = -wanted[1], wanted[0]
@@ -38,7 +39,7 @@ def attitude_rate(wanted: Array, gain: float, limit: float, dead_band: float, ra
     rate[0], rate[1] = speed * error_x / size, speed * error_y / size
 
 
-@njit(cache=True)
+@kernel
 def height_rate(plane: Array, wanted: float, gain: float, limit: float, dead_band: float) -> float:
     """Upward speed, m/s, that brings the body's origin `wanted` m above the plane of the foot centres."""
     height = -plane[2] / sqrt(plane[0] ** 2 + plane[1] ** 2 + 1.0)
@@ -46,10 +47,11 @@ def height_rate(plane: Array, wanted: float, gain: float, limit: float, dead_ban
     if abs(error) <= dead_band:
         return 0.0
     error -= dead_band if error > 0.0 else -dead_band
-    return min(max(gain * error, -limit), limit)
+    rise: float = min(max(gain * error, -limit), limit)
+    return rise
 
 
-@njit(cache=True)
+@kernel
 def support_shift(up: Array, height: float, fraction: float, largest: float, shift: Array) -> None:
     """Fill `shift` (2,), where the middle of the feet belongs in body so that the mass stands over it.
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from robot_agent.kinematics import LegModel, all_leg_frames, foot_forces
+from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.stability import centre_of_mass
 from robot_agent.locomotion.walk_tick import WalkInput
 from weaver_shared.config.locomotion import LocomotionConfig
@@ -81,7 +81,7 @@ class LegSenses:
         centre_of_mass(self.origins, model.link_mass, self._trunk_mass, self._trunk_centre, self.centre_of_mass)
 
 
-@njit(cache=True)
+@kernel
 def _take(kept: Array, new: Array) -> bool:
     """Copy the finite values of `new` (legs, n); False if any was not finite."""
     complete = True
@@ -94,7 +94,7 @@ def _take(kept: Array, new: Array) -> bool:
     return complete
 
 
-@njit(cache=True)
+@kernel
 def _take_up(up: Array, gravity: Array) -> bool:
     """Up is against gravity; a vector without length, or one of a robot on its back, is not taken."""
     length = np.sqrt(gravity[0] ** 2 + gravity[1] ** 2 + gravity[2] ** 2)
@@ -105,7 +105,7 @@ def _take_up(up: Array, gravity: Array) -> bool:
     return True
 
 
-@njit(cache=True)
+@kernel
 def _hold_contacts(
     raw_force: Array,
     up: Array,

@@ -5,15 +5,15 @@ target late by its back-EMF damping over stiffness. Both are added to the target
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from robot_agent.kinematics import foot_jacobian, link_gravity_torque
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True)
+@kernel
 def lead_servos(
     wanted: Array,
     rate: Array,

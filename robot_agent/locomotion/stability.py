@@ -3,13 +3,14 @@
 from math import sqrt
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True)
+@kernel
 def centre_of_mass(origins: Array, link_mass: Array, trunk_mass: float, trunk_centre: Array, centre: Array) -> None:
     """Fill `centre` (3,) in body: trunk and links, each link's mass half-way along it. `origins` (legs, n + 1, 3)."""
     total = trunk_mass
@@ -24,7 +25,7 @@ def centre_of_mass(origins: Array, link_mass: Array, trunk_mass: float, trunk_ce
         centre[k] /= total
 
 
-@njit(cache=True)
+@kernel
 def static_margin(feet_in_body: Array, standing: NDArray[np.bool_], centre: Array, up: Array) -> float:
     """Least distance, m, from the projected centre of mass to an edge of the support polygon; negative outside.
 

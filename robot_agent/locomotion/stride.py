@@ -6,15 +6,15 @@ the walker integrates it directly.
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.bezier import quartic
 
 Array = NDArray[np.float64]
 
 
-@njit(cache=True)
+@kernel
 def foot_velocity(velocity: Array, foot_in_body: Array, result: Array) -> None:
     """Velocity (3,) in body of a foot fixed to the ground while the body moves with `velocity` (vx, vy, turn)."""
     result[0] = -velocity[0] + velocity[2] * foot_in_body[1]
@@ -22,7 +22,7 @@ def foot_velocity(velocity: Array, foot_in_body: Array, result: Array) -> None:
     result[2] = 0.0
 
 
-@njit(cache=True)
+@kernel
 def stride_of(velocity: Array, foot_in_body: Array, duty: float, frequency: float, stride: Array) -> None:
     """Way (3,) in body that the body covers over one foot in one stance: v * duty / f (eq. 16)."""
     foot_velocity(velocity, foot_in_body, stride)
@@ -30,7 +30,7 @@ def stride_of(velocity: Array, foot_in_body: Array, duty: float, frequency: floa
         stride[k] *= -duty / frequency
 
 
-@njit(cache=True)
+@kernel
 def swing_nodes(
     lift_off: Array,
     foothold: Array,
@@ -75,7 +75,7 @@ def swing_nodes(
         second[1, k] = 2.0 * second[0, k] - first[3, k]
 
 
-@njit(cache=True)
+@kernel
 def swing_point(progress: float, first: Array, second: Array, point: Array) -> None:
     """Fill `point` (3,) at `progress` 0..1 of the swing."""
     if progress < 0.5:

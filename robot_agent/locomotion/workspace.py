@@ -1,10 +1,10 @@
 """How far a foot may travel about its stance, in every direction, over the range of ground heights."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from robot_agent.kinematics import LegModel
+from robot_agent.kinematics.compiled import kernel
 from robot_agent.kinematics.inverse import solve_leg
 
 Array = NDArray[np.float64]
@@ -28,7 +28,7 @@ def reachable_radius(model: LegModel, stance_in_body: Array, heights: Array, lar
     return opposite
 
 
-@njit(cache=True)
+@kernel
 def _fill(
     dh: Array,
     limits: Array,
@@ -64,17 +64,18 @@ def _fill(
             radius[leg, bearing] = reached
 
 
-@njit(cache=True)
+@kernel
 def radius_towards(radius: Array, x: float, y: float) -> float:
     """Radius of one leg (BEARINGS,) in the direction (x, y), linear between bearings."""
     place = np.arctan2(y, x) / (2.0 * np.pi) * radius.size
     lower = np.floor(place)
     share = place - lower
     first = int(lower) % radius.size
-    return (1.0 - share) * radius[first] + share * radius[(first + 1) % radius.size]
+    towards: float = (1.0 - share) * radius[first] + share * radius[(first + 1) % radius.size]
+    return towards
 
 
-@njit(cache=True)
+@kernel
 def velocity_scale(
     velocity: Array, stance: Array, radius: Array, duty: float, frequency: float, largest_stride: float
 ) -> float:

@@ -17,7 +17,7 @@ def pose(x: float, y: float, yaw: float = 0.0) -> Pose:
     return Pose(rotation=rotation_z(yaw), position=np.array([x, y, 0.15]))
 
 
-def walk(waypoints, x, y, yaw, *, seconds=300.0, dt=0.1):  # noqa: ANN001, ANN201
+def walk(waypoints, x, y, yaw, *, seconds=300.0, dt=0.1):
     """Places (n, 3) of an ideal robot that obeys the follower, and whether it was done."""
     follower, index, places = PathFollower(), 1, []
     for _ in range(round(seconds / dt)):
@@ -75,7 +75,7 @@ def test_the_next_segment_begins_inside_the_circle_of_acceptance():
     assert PathFollower().step(pose(3.55, 0.0), corner, 1).index == 2
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(x=st.floats(-2.0, 6.0), y=st.floats(-3.0, 3.0), yaw=st.floats(-np.pi, np.pi), goal_y=st.floats(-2.0, 2.0))
 def test_the_last_waypoint_is_reached_from_anywhere(x, y, yaw, goal_y):
     waypoints = (*PATH, Waypoint(x=5.0, y=goal_y))

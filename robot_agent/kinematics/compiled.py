@@ -1,0 +1,13 @@
+"""Compilation of kernels: machine code is kept beside the source, so a second start does not compile."""
+
+from collections.abc import Callable
+from typing import TypeVar, cast
+
+from numba import njit
+
+F = TypeVar("F", bound=Callable[..., object])
+
+
+def kernel(function: F) -> F:
+    """`njit` with a cache; a division by zero gives infinity as in numpy; the function keeps its types for type checkers."""
+    return cast(F, njit(cache=True, error_model="numpy")(function))

@@ -1,0 +1,60 @@
+"""`weaver gait` and `weaver bench tick` as programs."""
+
+import csv
+import io
+import json
+
+import numpy as np
+import pytest
+
+from robot_agent.command_line import bench_tick, gait
+from weaver_shared.errors import WeaverError
+
+
+def table(capsys, *arguments):
+    assert gait.main(list(arguments)) == 0
+    return list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+
+
+def test_the_table_has_a_row_per_tick_and_leg_and_idles_first(capsys):
+    rows = table(capsys, "--velocity", "0.1,0,0", "--ticks", "60")
+    assert len(rows) == 61 * 6
+    assert [row["leg"] for row in rows[:6]] == ["AR", "BR", "CR", "CL", "BL", "AL"]
+    assert {row["step_state"] for row in rows if int(row["tick"]) <= 5} == {"3"}
+    assert {row["step_state"] for row in rows if int(row["tick"]) > 6} == {"0", "1"}
+    for name in ("poser_x", "model_qw", "swing_progress", "virtual_stiffness", "q4", "dq4"):
+        assert name in rows[0]
+
+
+def test_its_swing_apex_and_its_stance_speed_are_exact(capsys):
+    rows = table(capsys, "--velocity", "0.1,0,0", "--ticks", "300", "--frequency", "0.8", "--height", "0.06")
+    leg = [row for row in rows if row["leg"] == "BL" and int(row["tick"]) > 200]
+    heights = np.array([float(row["walker_z"]) for row in leg])
+    assert heights.max() == pytest.approx(0.06, abs=3e-4)  # the apex falls between two ticks
+    stance = [float(row["walker_vx"]) for row in leg if float(row["stance_progress"]) > 0.05]
+    np.testing.assert_allclose(stance, -0.1, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["--gait", "gallop"], "known are tripod"),
+        (["--robot", "spot"], "weaver"),
+        (["--velocity", "1,2"], "three numbers"),
+        (["--velocity", "nan,0,0"], "three numbers"),
+        (["--ticks", "0"], "from 1 up"),
+        (["--frequency", "-1"], "above zero"),
+        (["--csv", "/nowhere/at/all.csv"], "can not be written"),
+    ],
+)
+def test_bad_input_gets_one_sentence(arguments, says):
+    with pytest.raises(WeaverError, match=says):
+        gait.main(arguments)
+
+
+def test_the_benchmark_reports_its_keys(capsys):
+    assert bench_tick.main(["--json", "--ticks", "50"]) == 0
+    figures = json.loads(capsys.readouterr().out)["tick_us"]
+    assert set(figures) == {"five_joint_walk", "five_joint_admittance", "three_joint_walk", "three_joint_admittance"}
+    for figure in figures.values():
+        assert 0.0 < figure["median"] <= figure["p99"]
