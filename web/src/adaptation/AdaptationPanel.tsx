@@ -4,7 +4,7 @@ import { useState } from "react";
 import { Panel } from "../components/Panel";
 import { GroundReadings } from "./GroundReadings";
 import { ParameterControl } from "./ParameterControl";
-import { ADAPTED } from "./parameters";
+import { useParameters } from "./parameters";
 
 const DURATIONS = [
   { value: "60", label: "for 1 min" },
@@ -31,7 +31,7 @@ export function AdaptationPanel() {
       }
     >
       <GroundReadings />
-      {ADAPTED.map((parameter) => (
+      {useParameters().map((parameter) => (
         <ParameterControl key={parameter.name} parameter={parameter} seconds={Number(seconds)} />
       ))}
     </Panel>

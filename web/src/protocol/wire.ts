@@ -28,6 +28,8 @@ export interface RobotEntry {
   joint_names: string[];
   gaits: string[];
   joint_limits: [number, number][];
+  /** What an operator may set of the adapted parameters; absent names are not adjustable. */
+  parameters?: Record<string, { lower: number; upper: number; unit: string }>;
   conflict: string;
 }
 

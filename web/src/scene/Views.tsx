@@ -1,22 +1,22 @@
 /** 3-D view, map and camera: one large, the others small. Changing places never reloads the 3-D view. */
 import { Button } from "@mantine/core";
-import type { ReactNode } from "react";
-import { useMemo } from "react";
+import { type ReactNode, useMemo } from "react";
 import { type MainView, usePreferences } from "../console/preferences";
 import { useConsole } from "../console/store";
 import { LayerLegend } from "../map/LayerLegend";
 import { MapCanvas } from "../map/MapCanvas";
 import { CameraView } from "./CameraView";
-import { hasWebGl2, SceneFrame } from "./SceneFrame";
+import { SceneFrame } from "./SceneFrame";
 import { ViewOptions } from "./ViewOptions";
+import { probeWebGl } from "./webgl";
 
 const TITLES: Record<MainView, string> = { scene: "3-D view", map: "Map", camera: "Camera" };
 
 export function Views() {
-  const webGl = useMemo(hasWebGl2, []);
+  const webGl = useMemo(probeWebGl, []);
   const without3d = useConsole((state) => state.hello !== null && state.hello.scene === null);
   const preferred = usePreferences((state) => state.mainView);
-  const withScene = webGl && !without3d;
+  const withScene = webGl.available && !without3d;
   const main = preferred === "scene" && !withScene ? "map" : preferred;
   return (
     <div className="views" data-main={main} data-scene={withScene}>
@@ -25,12 +25,12 @@ export function Views() {
         {withScene ? (
           <ViewOptions />
         ) : (
-          <span className="hint">{webGl ? "The console runs without its 3-D view." : "This browser has no WebGL 2, so there is no 3-D view."}</span>
+          <span className="hint">{webGl.available ? "The console runs without its 3-D view." : "This browser has no WebGL 2, so there is no 3-D view."}</span>
         )}
       </div>
       {withScene && (
         <View name="scene" main={main}>
-          <SceneFrame />
+          <SceneFrame coarse={webGl.software} />
         </View>
       )}
       <View name="map" main={main}>

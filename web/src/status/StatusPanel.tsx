@@ -2,18 +2,17 @@
 import { Panel } from "../components/Panel";
 import { Reading } from "../components/Reading";
 import { UNKNOWN, fixed, milliseconds, percent } from "../components/format";
-import { useConsole } from "../console/store";
 import { useFreshness, useKeys, useLatest } from "../console/useLatest";
-import type { Health, LoopTiming } from "../protocol/messages";
+import type { LoopTiming } from "../protocol/messages";
+import { type HealthKey, OdometryReadings } from "./OdometryReadings";
 
-type HealthKey = `tele/health/${string}`;
 const POWER = "tele/power";
 
 export function StatusPanel() {
   const keys = useKeys("tele/health/") as HealthKey[];
   return (
     <Panel title="Health" className="health">
-      <Odometry keys={keys} />
+      <OdometryReadings keys={keys} />
       {keys.length === 0 ? <p className="empty">No process has reported yet.</p> : <LoopTable keys={keys} />}
       <PowerDetails />
     </Panel>
@@ -66,24 +65,6 @@ function LoopRow({ timing, level }: { timing: LoopTiming; level: string }) {
   );
 }
 
-/** Odometry is reported by the process that sees; the others leave its quality empty. */
-function Odometry({ keys }: { keys: readonly HealthKey[] }) {
-  const values = useConsole((state) => state.values);
-  const source = keys.find((key) => reports(values[key]?.value)) ?? "tele/health/vision";
-  const health = useLatest(source);
-  const quality = health?.odometry_quality ?? "";
-  return (
-    <div className="readings readings-pairs">
-      <Reading label="Odometry" source={source} value={quality === "" ? UNKNOWN : quality}>
-        {health !== undefined && health.odometry_reason !== "" && <span className="hint">{health.odometry_reason}</span>}
-      </Reading>
-      <Reading label="Tracked features" source={source} value={fixed(health?.tracked_features, 0)} />
-      <Reading label="Odometry age" source={source} value={milliseconds(health?.odometry_age)} unit="ms" />
-      <Reading label="Hottest servo" source={keys.find((key) => hot(values[key]?.value)) ?? source} value={fixed(hottest(keys.map((key) => values[key]?.value)), 0)} unit="°C" />
-    </div>
-  );
-}
-
 function PowerDetails() {
   const power = useLatest(POWER);
   return (
@@ -92,17 +73,4 @@ function PowerDetails() {
       <Reading label="Cost of transport" source={POWER} value={fixed(power?.cost_of_transport, 2)} />
     </div>
   );
-}
-
-function reports(health: unknown): boolean {
-  return ((health as Health | undefined)?.odometry_quality ?? "") !== "";
-}
-
-function hot(health: unknown): boolean {
-  return Number.isFinite((health as Health | undefined)?.max_temperature ?? NaN);
-}
-
-function hottest(healths: readonly unknown[]): number | null {
-  const known = healths.flatMap((health) => (hot(health) ? [(health as Health).max_temperature as number] : []));
-  return known.length === 0 ? null : Math.max(...known);
 }
