@@ -8,13 +8,11 @@ import logging
 import socket
 from pathlib import Path
 
-import uvicorn
-
 from weaver_console.access import Access
 from weaver_console.app import create_app
 from weaver_console.hub import Hub
 from weaver_console.link import Link
-from weaver_console.page_messages import LARGEST_FRAME
+from weaver_console.web_server import web_server
 from weaver_shared.bus import ZenohBus
 from weaver_shared.errors import ConfigurationError, ResourceError
 
@@ -28,25 +26,10 @@ def main(arguments: list[str]) -> int:
         link = Link(ZenohBus(listen=options.listen or ["tcp/127.0.0.1:7447"], connect=options.connect or []))
         app = create_app(Hub(link, scenes=not options.no_scene), access)
         print(f"Weaver Console: {_address(options.host, listener)}", flush=True)
-        asyncio.run(_serve(app, listener))
+        asyncio.run(web_server(app).serve(sockets=[listener]))
     finally:
         listener.close()
     return 0
-
-
-async def _serve(app: object, listener: socket.socket) -> None:
-    config = uvicorn.Config(
-        app,  # type: ignore[arg-type]
-        log_level="warning",
-        ws="websockets-sansio",
-        ws_max_size=LARGEST_FRAME,
-        ws_per_message_deflate=False,
-        ws_ping_interval=5.0,
-        ws_ping_timeout=20.0,
-        timeout_graceful_shutdown=2,
-        server_header=False,
-    )
-    await uvicorn.Server(config).serve(sockets=[listener])
 
 
 def _parser() -> argparse.ArgumentParser:

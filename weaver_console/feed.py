@@ -24,8 +24,9 @@ PERIODS_NS = {
 }
 """Least time between two values of a key, by the key's beginning; others go at once."""
 
+BULK = ("tele/map/", "tele/cam/")
 LARGEST_BATCH = 256 * 1024
-"""Bytes after which further values wait for the next batch, so that a large map does not delay the state."""
+"""Bytes after which further tiles and pictures wait for the next batch; the rest goes before them and always."""
 
 LINK_PERIOD_NS = 500_000_000
 SLACK_NS = 5_000_000
@@ -89,17 +90,21 @@ class Feed:
 
     def _values(self, robot: str, values: list[Value], now_ns: int) -> list[bytes]:
         messages, size = [], 0
-        for value in values:
-            if value.version <= self._sent.get(value.key, 0) or size > LARGEST_BATCH:
-                continue
-            if now_ns + SLACK_NS < self._due_ns.get(value.key, 0) or (not self.cameras and "tele/cam/" in value.key):
-                continue
+        values = [value for value in values if self._wanted(value, now_ns)]
+        for value in sorted(values, key=lambda value: value.key.startswith(BULK)):
+            if size > LARGEST_BATCH and value.key.startswith(BULK):
+                break
             message = _value_message(robot, value, now_ns)
             self._sent[value.key] = value.version
             self._due_ns[value.key] = now_ns + _period_ns(value.key)
             messages.append(message)
             size += len(message)
         return messages
+
+    def _wanted(self, value: Value, now_ns: int) -> bool:
+        new = value.version > self._sent.get(value.key, 0)
+        due = now_ns + SLACK_NS >= self._due_ns.get(value.key, 0)
+        return new and due and (self.cameras or not value.key.startswith("tele/cam/"))
 
 
 def _period_ns(key: str) -> int:

@@ -17,6 +17,7 @@ from weaver_console.command_desk import CommandDesk, Reply
 from weaver_console.feed import Feed
 from weaver_console.link import Link
 from weaver_console.plain import to_json
+from weaver_console.robot_record import RobotRecord
 from weaver_console.roster import Roster
 from weaver_console.scene.layers import LAYERS, Legend, legend
 from weaver_console.scene.page_scene import PageScene
@@ -144,7 +145,7 @@ class PageSession:
             known = ", ".join(record.robot_id for record in self._link.robots()) or "none yet"
             raise InputError(f"robot {robot!r:.60} is unknown; known are {known}")
         former = self._link.robot(self.robot) if self.robot is not None and self.robot != robot else None
-        if former is not None and former.lease is not None and former.lease.holder == self.operator and former.alive:
+        if former is not None and self._controls(former):
             if former.mode is not None and former.mode.mode == "WALK":
                 raise InputError(f"{former.robot_id} is walking under your control; pause or stop it first")
             self._spawn(self._send(p.CommandRequest(id="", command=CommandName.RELEASE_CONTROL), former.robot_id, None))
@@ -152,6 +153,10 @@ class PageSession:
         self._refused = ""
         self._wish(draft=(), selected=None)
         self.tell({"type": "selected", "robot": robot})
+
+    def _controls(self, record: RobotRecord) -> bool:
+        held = record.lease is not None and record.lease.holder == self.operator
+        return held and record.heard(self._link.clock.now_ns())
 
     def _command(self, request: p.CommandRequest) -> None:
         robot = self.robot if request.robot is None else request.robot

@@ -68,6 +68,7 @@ class MissionFigure:
 
     def _draw(self, ground: Ground, start: tuple[float, ...] | None, course: Course) -> None:
         places = [(w.x, w.y) for w in course.waypoints]
+        self._nodes.append(self._scene.add_frame(f"{self._name}/{course.kind}", show_axes=False))
         for number, place in enumerate(places):
             chosen = _SELECTED if number == course.selected else course.colour
             shade = _REACHED if number < course.reached else chosen
@@ -82,13 +83,12 @@ class MissionFigure:
     ) -> None:
         height = _height(ground, *place)
         still = {"cast_shadow": False, "receive_shadow": False}
-        pole = self._scene.add_cylinder(f"{name}/pole", 0.008, 0.30, color=colour,
+        self._scene.add_cylinder(f"{name}/pole", 0.008, 0.30, color=colour,
                                         position=(*place, height + 0.15), **still)  # fmt: skip
-        ball = self._scene.add_icosphere(f"{name}/ball", 0.035, color=colour, subdivisions=2,
+        self._scene.add_icosphere(f"{name}/ball", 0.035, color=colour, subdivisions=2,
                                          position=(*place, height + 0.31), **still)  # fmt: skip
-        label = self._scene.add_label(f"{name}/label", str(number), position=(*place, height + 0.38),
+        self._scene.add_label(f"{name}/label", str(number), position=(*place, height + 0.38),
                                       anchor="bottom-center")  # fmt: skip
-        self._nodes += [pole, ball, label]
         angles = np.linspace(0.0, 2.0 * np.pi, 33)
         ring = [(place[0] + self._radius * c, place[1] + self._radius * s)
                 for c, s in zip(np.cos(angles), np.sin(angles), strict=True)]  # fmt: skip
@@ -97,7 +97,7 @@ class MissionFigure:
 
     def _line(self, name: str, points: Array, colour: tuple[int, int, int]) -> None:
         segments = np.stack([points[:-1], points[1:]], axis=1).astype(np.float32)
-        self._nodes.append(self._scene.add_line_segments(name, segments, colour, thickness=0.012))
+        self._scene.add_line_segments(name, segments, colour, thickness=0.012)
 
 
 def _draped(ground: Ground, places: Sequence[tuple[float, ...]]) -> Array:

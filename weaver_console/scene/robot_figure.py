@@ -94,7 +94,8 @@ def _links(frames: Array) -> tuple[NDArray[np.int_], NDArray[np.int_]]:
 
 def _segments(frames: Array, first: NDArray[np.int_], last: NDArray[np.int_]) -> tuple[Array, Array, Array]:
     """Middles (n, 3), attitudes (n, 4) with z along the link, and lengths (n,) of the links of all legs, in body."""
-    begin, end = frames[:, first, :3, 3].reshape(-1, 3), frames[:, last, :3, 3].reshape(-1, 3)
+    points = frames[..., :3, 3]
+    begin, end = points[:, first].reshape(-1, 3), points[:, last].reshape(-1, 3)
     lengths = np.linalg.norm(end - begin, axis=1)
     return 0.5 * (begin + end), _turn_z_to((end - begin) / lengths[:, None]), lengths
 

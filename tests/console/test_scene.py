@@ -1,0 +1,224 @@
+"""The 3-D view: drawn for one page, clicked by one page, reached only through the console."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from itertools import pairwise
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import Console, Field, Page
+from hypothesis import given
+from hypothesis import strategies as st
+from websockets.exceptions import InvalidStatus
+from wire_robot import STANDING, ground_height
+
+from weaver_console.scene.motion_figure import _closed_hull
+from weaver_console.scene.page_scene import PageScene
+from weaver_console.scene.robot_figure import _segments, _turn_z_to, octasphere, prism
+from weaver_console.scene.terrain_figure import TILES_AN_UPDATE, MeshStore
+from weaver_console.scene_page import scene_page
+from weaver_shared import topics
+from weaver_shared.messages import Waypoint
+from weaver_shared.robots import load_robot
+from weaver_shared.robots.forward_kinematics import joint_frames_in_body
+from weaver_shared.transforms import rotation_from_wxyz
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class View:
+    scene: PageScene
+    picks: list[Any]
+    legends: list[Any]
+
+    def node(self, name: str) -> Any:
+        return self.scene._server.scene._handle_from_node_name[name]
+
+    def names(self, beginning: str) -> set[str]:
+        return {name for name in self.scene._server.scene._handle_from_node_name if name.startswith(beginning)}
+
+
+@pytest.fixture
+def view() -> Iterator[View]:
+    picks: list[Any] = []
+    legends: list[Any] = []
+    scene = PageScene(MeshStore(), on_pick=picks.append, on_legend=legends.append)
+    yield View(scene=scene, picks=picks, legends=legends)
+    scene.close()
+
+
+def _ray(origin: tuple[float, float, float], target: np.ndarray) -> SimpleNamespace:
+    direction = target - np.array(origin)
+    return SimpleNamespace(ray_origin=origin, ray_direction=tuple(direction / np.linalg.norm(direction)))
+
+
+def test_the_robot_stands_where_its_state_says(field: Field, view: View):
+    robot = field.robot()
+    field.forward(robot, 0.1)
+    view.scene.update(field.link.robot("weaver"))
+    assert np.allclose(view.node("/world/robot").position, robot.state(0).position_in_world)
+    frames = joint_frames_in_body(load_robot("weaver"), STANDING)
+    assert np.allclose(view.node("/world/robot/feet").batched_positions, frames[:, -1, :3, 3], atol=1e-6)
+    colours = view.node("/world/robot/feet").batched_colors
+    assert (colours[:, 1] > colours[:, 0]).all()
+
+
+def test_a_whole_map_is_drawn_in_parts_and_then_left_alone(field: Field, view: View):
+    robot = field.robot()
+    robot.publish_map(3)
+    field.forward(robot, 0.1)
+    record = field.link.robot("weaver")
+    view.scene.update(record)
+    assert len(view.names("/world/terrain/")) == TILES_AN_UPDATE
+    view.scene.update(record)
+    view.scene.update(record)
+    assert len(view.names("/world/terrain/")) == 36
+    mesh = view.node("/world/terrain/0_0").glb_data
+    view.scene.update(record)
+    assert view.node("/world/terrain/0_0").glb_data is mesh
+
+
+def test_another_layer_recolours_every_tile_and_tells_its_legend(field: Field, view: View):
+    robot = field.robot()
+    robot.publish_map(1)
+    field.forward(robot, 0.1)
+    record = field.link.robot("weaver")
+    view.scene.update(record)
+    before = view.node("/world/terrain/0_0").glb_data
+    view.scene.wish(layer="roughness")
+    view.scene.update(record)
+    assert view.node("/world/terrain/0_0").glb_data != before
+    assert view.legends[-1].layer == "roughness"
+
+
+def test_a_click_is_answered_with_the_ground_it_hit(field: Field, view: View):
+    robot = field.robot()
+    robot.publish_map(2)
+    field.forward(robot, 0.1)
+    view.scene._clicked(_ray((-2.0, 0.0, 2.0), np.array([0.5, 0.1, 0.0])))
+    assert view.picks == [None]
+    view.scene.update(field.link.robot("weaver"))
+    place = np.array([0.5, 0.3, float(ground_height(np.array([0.5]), np.array([0.3]))[0])])
+    view.scene._clicked(_ray((-1.0, 0.0, 1.5), place))
+    assert np.linalg.norm(view.picks[-1] - place) < 0.02
+    view.scene._clicked(_ray((-1.0, 0.0, 1.5), np.array([0.0, 0.0, 5.0])))
+    assert view.picks[-1] is None
+
+
+def test_the_draft_is_drawn_until_the_robot_has_it(field: Field, view: View):
+    robot = field.robot()
+    field.forward(robot, 0.1)
+    record = field.link.robot("weaver")
+    draft = (Waypoint(x=1.0, y=0.0), Waypoint(x=1.0, y=1.0))
+    view.scene.propose(draft, 1)
+    view.scene.update(record)
+    assert {name.split("/")[4] for name in view.names("/world/mission/draft/")} == {"0", "1", "path"}
+    robot.waypoints = draft
+    field.forward(robot, 0.2)
+    view.scene.update(record)
+    assert not view.names("/world/mission/draft/")
+    assert "/world/mission/mission/1/circle" in view.names("/world/mission/")
+
+
+def test_a_restarted_robot_leaves_nothing_of_its_old_map(field: Field, view: View):
+    former = field.robot(session="first")
+    former.publish_map(1)
+    field.forward(former, 0.1)
+    view.scene.update(field.link.robot("weaver"))
+    assert view.names("/world/terrain/")
+    field.forward(field.robot(session="second"), 0.2)
+    view.scene.update(field.link.robot("weaver"))
+    assert not view.names("/world/terrain/")
+    view.scene.update(None)
+    assert not view.names("/world")
+
+
+def test_a_state_that_is_no_state_of_this_robot_is_not_drawn(field: Field, view: View):
+    robot = field.robot()
+    field.forward(robot, 0.1)
+    record = field.link.robot("weaver")
+    view.scene.update(record)
+    before = np.array(view.node("/world/robot").position)
+    good = robot.state(1)
+    for damaged in (
+        dataclasses.replace(good, joint_position=np.zeros(18)),
+        dataclasses.replace(good, position_in_world=np.full(3, np.nan)),
+        dataclasses.replace(good, wxyz=np.zeros(4)),
+        dataclasses.replace(good, foot_contact=np.zeros(0, dtype=bool)),
+    ):
+        field.bus.publish("weaver", topics.STATE, damaged)
+        view.scene.update(record)
+        assert np.allclose(view.node("/world/robot").position, before)
+
+
+def test_the_view_is_reached_through_the_console_with_its_own_subprotocol(console: Console):
+    with console.page() as socket:
+        hello = Page(socket).hear("hello")
+        assert hello["scene"] == "/viser/page-0001/"
+        html = console.http.get(hello["scene"])
+        assert html.status_code == 200
+        assert "weaver-scene" in html.text
+        assert "frame-ancestors 'self'" in html.headers["content-security-policy"]
+        viser = __import__("viser")
+        with console.connect("/viser/page-0001", subprotocols=[f"viser-v{viser.__version__}"]) as scene:
+            assert isinstance(scene.recv(timeout=10.0), bytes)
+            scene.send(b"ShareUrlRequest")
+        with pytest.raises(InvalidStatus):
+            console.connect("/viser/page-0001")
+
+
+def test_there_is_no_view_for_a_page_that_is_not_connected(console: Console):
+    assert console.http.get("/viser/page-9999/").status_code == 404
+    with pytest.raises(InvalidStatus):
+        console.connect("/viser/page-9999/", subprotocols=["viser-v1"])
+
+
+def test_the_view_carries_the_shim_before_anything_of_visers():
+    import gzip
+
+    text = gzip.decompress(scene_page()).decode()
+    assert text.index("weaver-scene") < text.index("<title>")
+    assert "https://" not in text[: text.index("</style>")]
+
+
+directions = st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(-1, 1)).filter(lambda v: np.linalg.norm(v) > 1e-3)
+
+
+@given(directions)
+def test_the_shortest_rotation_takes_z_to_the_direction(vector):
+    direction = np.array(vector) / np.linalg.norm(vector)
+    (wxyz,) = _turn_z_to(direction[None])
+    assert np.allclose(rotation_from_wxyz(wxyz) @ [0.0, 0.0, 1.0], direction, atol=1e-6)
+
+
+def test_links_span_the_leg_from_hip_to_foot():
+    robot = load_robot("weaver")
+    frames = joint_frames_in_body(robot, STANDING)
+    middles, wxyzs, lengths = _segments(frames, np.array([1, 2, 3, 4]), np.array([2, 3, 4, 5]))
+    assert lengths.reshape(6, 4).sum(axis=1) == pytest.approx(np.full(6, 0.34))
+    along = np.array([rotation_from_wxyz(wxyz)[:, 2] for wxyz in wxyzs])
+    ends = (middles + 0.5 * lengths[:, None] * along).reshape(6, 4, 3)[:, -1]
+    assert np.allclose(ends, frames[:, -1, :3, 3])
+
+
+@pytest.mark.parametrize("shape", [prism(), octasphere()])
+def test_shapes_are_closed_and_face_outwards(shape):
+    vertices, faces = shape
+    corners = vertices[faces].astype(float)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert (np.einsum("ij,ij->i", normals, corners.mean(axis=1)) > 0.0).all()
+    edges = np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).tolist()
+    assert sorted(map(tuple, edges)) == sorted((b, a) for a, b in edges)
+
+
+@given(st.lists(st.tuples(st.floats(-1, 1), st.floats(-1, 1)), min_size=3, max_size=6, unique=True))
+def test_the_support_polygon_has_every_foot_on_its_left(feet):
+    points = np.column_stack([np.array(feet), np.zeros(len(feet))])
+    hull = _closed_hull(points)
+    assert np.array_equal(hull[0], hull[-1])
+    for a, b in pairwise(hull):
+        turns = (b[0] - a[0]) * (points[:, 1] - a[1]) - (b[1] - a[1]) * (points[:, 0] - a[0])
+        assert (turns >= -1e-9).all()

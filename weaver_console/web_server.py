@@ -1,0 +1,22 @@
+"""The HTTP server's settings, in one place for the program and its tests."""
+
+from typing import Any
+
+import uvicorn
+
+from weaver_console.page_messages import LARGEST_FRAME
+
+
+def web_server(app: Any) -> uvicorn.Server:
+    config = uvicorn.Config(
+        app,
+        log_level="warning",
+        ws="websockets-sansio",
+        ws_max_size=LARGEST_FRAME,
+        ws_per_message_deflate=False,  # most of the traffic is compressed already, and the rest is small
+        ws_ping_interval=5.0,
+        ws_ping_timeout=20.0,
+        timeout_graceful_shutdown=2,
+        server_header=False,
+    )
+    return uvicorn.Server(config)
