@@ -1,0 +1,153 @@
+"""Bad pictures and bad inertia: the estimate says so, stays near the truth and comes back by itself."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from walking_motion import FRAME_NS, Walk, inertia
+
+from robot_agent.evaluation.textured_ground import TexturedGround
+from robot_agent.odometry import StereoInertialOdometry
+from robot_agent.vision.camera import StereoCalibration
+from weaver_shared.config.odometry import FailureConfig, OdometryConfig
+from weaver_shared.messages import ImuBatch, OdometryEstimate, OdometryQuality, StereoFrame
+from weaver_shared.robots import RobotDescription
+
+FRAMES = 90
+GOOD, DEGRADED, LOST = OdometryQuality.GOOD, OdometryQuality.DEGRADED, OdometryQuality.LOST
+Recording = list[tuple[StereoFrame, ImuBatch]]
+BLACK = np.zeros((480, 640), dtype=np.uint8)
+
+
+@pytest.fixture(scope="module")
+def recording(robot: RobotDescription, calibration: StereoCalibration) -> Recording:
+    walk, random = Walk(), np.random.default_rng(1)
+    ground = TexturedGround(calibration, seed=2)
+    bias = np.array([0.002, -0.003, 0.001]), np.array([0.01, 0.02, -0.02])
+    return [
+        (
+            ground.look(k * FRAME_NS, k, walk.body(k * FRAME_NS * 1e-9)),
+            inertia(walk, robot, (k - 1) * FRAME_NS, k * FRAME_NS, random, *bias),
+        )
+        for k in range(1, FRAMES + 1)
+    ]
+
+
+@pytest.fixture
+def run(robot: RobotDescription, calibration: StereoCalibration) -> Callable[..., list[OdometryEstimate]]:
+    def _run(recording: Recording, **failure: float) -> list[OdometryEstimate]:
+        config = OdometryConfig(failure=FailureConfig.model_validate(failure))
+        odometry = StereoInertialOdometry(
+            calibration=calibration, imu=robot.imu, initial=Walk().body(0.0), config=config
+        )
+        estimates = [odometry.step(frame, batch) for frame, batch in recording]
+        for e in estimates:
+            for number in (e.position_in_world, e.wxyz, e.velocity_in_world, e.covariance):
+                assert np.isfinite(number).all()
+        return estimates
+
+    return _run
+
+
+def _error(estimate: OdometryEstimate) -> float:
+    truth = Walk().body(estimate.stamp_ns * 1e-9)
+    return float(np.linalg.norm(estimate.position_in_world - truth.position))
+
+
+def _spoiled(recording: Recording, begin: int, end: int, spoil: Callable[[StereoFrame], StereoFrame]) -> Recording:
+    return [(spoil(f) if begin <= n < end else f, batch) for n, (f, batch) in enumerate(recording)]
+
+
+def test_clean_pictures_are_followed_to_millimetres(
+    recording: Recording, run: Callable[..., list[OdometryEstimate]]
+) -> None:
+    estimates = run(recording)
+    assert estimates[0].quality is OdometryQuality.INITIALISING
+    assert all(e.quality is GOOD for e in estimates[12:])
+    assert _error(estimates[-1]) < 0.008
+    truth = Walk().body(estimates[-1].stamp_ns * 1e-9)
+    assert estimates[-1].world_from_body.rotation == pytest.approx(truth.rotation, abs=0.01)
+
+
+def test_darkness_is_bridged_by_inertia(recording: Recording, run: Callable[..., list[OdometryEstimate]]) -> None:
+    dark = _spoiled(recording, 50, 70, lambda f: replace(f, left=BLACK, right=BLACK))
+    estimates = run(dark)
+    assert all(e.quality is DEGRADED and "black" in e.reason for e in estimates[50:70])
+    assert estimates[69].covariance[3, 3] > 4.0 * estimates[49].covariance[3, 3]
+    assert estimates[-1].quality is GOOD
+    assert _error(estimates[-1]) < 0.05
+
+
+def test_long_darkness_is_a_loss_and_the_world_is_kept(
+    recording: Recording, run: Callable[..., list[OdometryEstimate]]
+) -> None:
+    dark = _spoiled(recording, 40, 75, lambda f: replace(f, left=BLACK, right=BLACK))
+    estimates = run(dark, blind_duration=1.0)
+    assert estimates[70].quality is LOST
+    assert "inertia alone" in estimates[70].reason
+    assert estimates[75].quality is DEGRADED
+    assert estimates[-1].quality is GOOD
+    jumps = np.linalg.norm(np.diff([e.position_in_world for e in estimates], axis=0), axis=1)
+    assert jumps.max() < 0.06
+    assert _error(estimates[-1]) < 0.6
+
+
+def test_one_eye_is_enough_for_a_while(recording: Recording, run: Callable[..., list[OdometryEstimate]]) -> None:
+    one_eyed = _spoiled(recording, 50, 90, lambda f: replace(f, right=np.zeros((0, 0), dtype=np.uint8)))
+    estimates = run(one_eyed)
+    assert estimates[60].quality is DEGRADED
+    assert "right picture missing" in estimates[60].reason
+    assert _error(estimates[-1]) < 0.03
+
+
+def test_dropped_pictures_do_no_harm(recording: Recording, run: Callable[..., list[OdometryEstimate]]) -> None:
+    kept: Recording = []
+    waiting: list[ImuBatch] = []
+    for n, (frame, batch) in enumerate(recording):
+        waiting.append(batch)
+        if n % 5 != 3:
+            kept.append((frame, ImuBatch.join(waiting)))
+            waiting = []
+    estimates = run(kept)
+    assert estimates[-1].quality is GOOD
+    assert _error(estimates[-1]) < 0.015
+
+
+def test_repeated_and_late_pictures_are_named(recording: Recording, run: Callable[..., list[OdometryEstimate]]) -> None:
+    frame, _ = recording[30]
+    estimates = run([*recording[:40], (frame, ImuBatch.empty()), *recording[40:60]])
+    assert estimates[40].quality is DEGRADED
+    assert "out of order" in estimates[40].reason
+    assert estimates[-1].quality is GOOD
+
+
+def test_unusable_inertia_is_left_out_and_named(
+    recording: Recording, run: Callable[..., list[OdometryEstimate]]
+) -> None:
+    spoiled: Recording = []
+    for n, (frame, batch) in enumerate(recording):
+        force = batch.specific_force_in_imu.copy()
+        if n == 50:
+            force[3] = np.nan
+        if n == 55:
+            force[2] = 1e4
+        stamps = batch.stamp_ns[::-1].copy() if n == 60 else batch.stamp_ns
+        spoiled.append((frame, replace(batch, specific_force_in_imu=force, stamp_ns=stamps)))
+    estimates = run(spoiled)
+    for n in (50, 55, 60):
+        assert estimates[n].quality is DEGRADED
+        assert "inertial samples" in estimates[n].reason
+    assert estimates[-1].quality is GOOD
+    assert _error(estimates[-1]) < 0.03
+
+
+def test_a_start_in_motion_still_finds_gravity(
+    recording: Recording, run: Callable[..., list[OdometryEstimate]]
+) -> None:
+    estimates = run(recording[32:])
+    assert estimates[-1].quality is GOOD
+    truth = Walk().body(estimates[-1].stamp_ns * 1e-9)
+    tilt = estimates[-1].world_from_body.rotation[2] - truth.rotation[2]
+    assert np.linalg.norm(tilt) < 0.02
+    assert np.linalg.norm(estimates[-1].velocity_in_world[:2]) == pytest.approx(0.2, abs=0.05)
