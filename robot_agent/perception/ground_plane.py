@@ -10,8 +10,13 @@ from numpy.typing import NDArray
 from weaver_shared.config.perception import PlaneMode
 
 Array = NDArray[np.float64]
+Floats = NDArray[np.floating]
 
 ITERATIONS = 12
+SETTLED = 1e-6
+TRIPLES = 64  # with half the points on the plane, one of 64 triples misses it with a chance of 0.0002
+JUDGES = 400
+SMALLEST_TRIANGLE = 0.05  # of the patch's extent; smaller ones say little about slopes
 NORMAL_SPREAD = 1.4826
 """Standard deviation of a normal law over its median absolute deviation."""
 
@@ -43,8 +48,9 @@ def fit_plane(x: Array, y: Array, z: Array, mode: PlaneMode, noise: float = 0.00
     """Plane through points x, y, z (n,) in m, n >= 3.
 
     `paper`: least squares of z. `robust`: iteratively reweighted with Geman-McClure weights whose scale follows the
-    spread of the residuals, never under three times `noise` (m). On level tables with 17-36 % of the cells covered by
-    objects least squares errs by 2-11 degrees, this by 0.1-0.4.
+    spread of the residuals, never under three times `noise` (m); begun from least squares and from the triple of
+    points that leaves the least median residual, and the better taken. On level tables with 17-36 % of the cells
+    covered by objects least squares errs by 2-11 degrees, this by less than 0.4.
     Raises ValueError on fewer than three points or when they lie on one line.
     """
     if len(z) < 3:
@@ -52,18 +58,12 @@ def fit_plane(x: Array, y: Array, z: Array, mode: PlaneMode, noise: float = 0.00
     centre = np.array([x.mean(), y.mean(), z.mean()])
     design = np.column_stack([x - centre[0], y - centre[1], np.ones(len(x))])
     heights = z - centre[2]
-    weights: NDArray[np.floating] = np.ones(len(z))
+    weights: Floats = np.ones(len(z))
     solution = _weighted_least_squares(design, heights, weights)
-    for _ in range(ITERATIONS if mode == "robust" else 0):
-        residual = heights - design @ solution
-        spread = NORMAL_SPREAD * float(np.median(np.abs(residual - np.median(residual))))
-        scale = 3.0 * max(spread, noise)
-        weights = (scale**2 / (scale**2 + residual**2)) ** 2
-        update = _weighted_least_squares(design, heights, weights)
-        settled = float(np.abs(update - solution).max()) < 1e-6
-        solution = update
-        if settled:
-            break
+    if mode == "robust":
+        starts = (solution, _least_median_triple(design, heights, solution))
+        fits = [_reweighted(design, heights, start, noise) for start in starts]
+        solution, weights = min(fits, key=lambda fit: float(np.median(np.abs(heights - design @ fit[0]))))
     slope_x, slope_y, height = solution
     residual = heights - design @ solution
     tilt_cosine = 1.0 / np.sqrt(1.0 + slope_x**2 + slope_y**2)
@@ -75,7 +75,38 @@ def fit_plane(x: Array, y: Array, z: Array, mode: PlaneMode, noise: float = 0.00
     )
 
 
-def _weighted_least_squares(design: Array, heights: Array, weights: NDArray[np.floating]) -> Array:
+def _reweighted(design: Array, heights: Array, start: Array, noise: float) -> tuple[Array, Floats]:
+    """Solution and weights of Geman-McClure iterations from `start`."""
+    solution = start
+    weights: Floats = np.ones(len(heights))
+    for _ in range(ITERATIONS):
+        residual = heights - design @ solution
+        spread = NORMAL_SPREAD * float(np.median(np.abs(residual - np.median(residual))))
+        scale = 3.0 * max(spread, noise)
+        weights = (scale**2 / (scale**2 + residual**2)) ** 2
+        update = _weighted_least_squares(design, heights, weights)
+        settled = float(np.abs(update - solution).max()) < SETTLED
+        solution = update
+        if settled:
+            break
+    return solution, weights
+
+
+def _least_median_triple(design: Array, heights: Array, fallback: Array) -> Array:
+    """Of planes through three points each, the one with the least median residual of a sample of the points."""
+    generator = np.random.default_rng(0)
+    triples = generator.integers(0, len(heights), (TRIPLES, 3))
+    corners = design[triples]  # (TRIPLES, 3, 3)
+    wide = np.abs(np.linalg.det(corners)) > SMALLEST_TRIANGLE * np.ptp(design[:, 0]) * np.ptp(design[:, 1])
+    if not wide.any():
+        return fallback
+    planes = np.linalg.solve(corners[wide], heights[triples[wide]][..., None])[..., 0]
+    sample = np.linspace(0, len(heights) - 1, min(len(heights), JUDGES)).astype(np.int64)
+    medians = np.median(np.abs(heights[sample][:, None] - design[sample] @ planes.T), axis=0)
+    return np.asarray(planes[int(np.argmin(medians))], dtype=np.float64)
+
+
+def _weighted_least_squares(design: Array, heights: Array, weights: Floats) -> Array:
     weighted = design * weights[:, None]
     normal_matrix = weighted.T @ design
     if np.linalg.cond(normal_matrix) > 1e12:

@@ -18,11 +18,12 @@ Picture = NDArray[np.uint8]
 WINDOW = 4  # px to each side of a sample
 STRIDE = 8  # px between samples
 FEWEST_WINDOWS = 20
+WORTH_SAYING = 0.8  # a score below this comes with its reason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureHealth:
-    """Measures of a matched pair and the score 0..1 that the worst of them gives."""
+    """Measures of a matched pair and the score 0..1, the product of what each of them gives."""
 
     contrast: float  # grey levels: median standard deviation of small windows of the darker eye
     sharpness: float  # detail from pixel to pixel over contrast, of the less detailed direction
@@ -51,7 +52,7 @@ def assess(left: Picture, right: Picture, disparity: NDArray[np.int16], config: 
         "too little of the ground is matched": _score(density, config.density),
     }
     reason = min(scores, key=lambda name: scores[name])
-    score = scores[reason]
+    score = float(np.prod(list(scores.values())))
     return PictureHealth(
         contrast=contrast,
         sharpness=sharpness,
@@ -59,7 +60,7 @@ def assess(left: Picture, right: Picture, disparity: NDArray[np.int16], config: 
         row_error=row_error,
         density=density,
         score=score,
-        reason=reason if score < 1.0 else "",
+        reason=reason if score < WORTH_SAYING else "",
     )
 
 
