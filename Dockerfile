@@ -10,13 +10,16 @@ FROM python:3.11-slim-bookworm
 RUN apt-get update \
     && apt-get install --yes --no-install-recommends libegl1 libegl-mesa0 libgl1 libgl1-mesa-dri \
     && rm -rf /var/lib/apt/lists/*
-WORKDIR /weaver
+WORKDIR /build
 COPY constraints.txt pyproject.toml setup.py README.md ./
 COPY shared shared
 COPY robot_agent robot_agent
 COPY sim_agent sim_agent
 COPY weaver_console weaver_console
 COPY --from=page /page/dist web/dist
-RUN pip install --no-cache-dir -c constraints.txt ".[robot,sim,console]" && weaver warm-up
+RUN pip install --no-cache-dir -c constraints.txt ".[robot,sim,console]"
+# Away from the sources, so that what runs is what was installed.
+WORKDIR /var/lib/weaver
+RUN weaver warm-up
 ENTRYPOINT ["weaver"]
 CMD ["--help"]
