@@ -37,7 +37,7 @@ def main(arguments: list[str] | None = None) -> int:
     stopping = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: stopping.set())
-    bus = ZenohBus(connect=options.connect)
+    bus = ZenohBus(connect=options.connect.split(",") if options.connect else [])
     try:
         renderer = StereoRenderer(robot, world, options.seed)
         try:
@@ -97,9 +97,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--robot", default="weaver", help="robot description: a name or a TOML file")
     parser.add_argument("--world", default="testbed", help=f"one of {', '.join(WORLD_NAMES)}")
     parser.add_argument("--seed", type=int, default=1, help="of world and sensor noise, from 0 up")
-    parser.add_argument(
-        "--connect", action="append", default=[], metavar="ENDPOINT", help="bus endpoint such as tcp/127.0.0.1:7447"
-    )
+    parser.add_argument("--connect", default="tcp/127.0.0.1:7447", help="bus endpoints to join, comma-separated")
     return parser
 
 
