@@ -23,7 +23,7 @@ export function ParameterControl({ parameter, seconds }: { parameter: Parameter;
       <div className="parameter-head">
         <h3>{label}</h3>
         <span className="override-state">
-          {override.active ? "held by operator" : "automatic"}
+          {override.active ? "held" : "automatic"}
         </span>
         <Switch shown="Override" label={`Override ${label}`} checked={override.active} disabled={hindrance !== null} onChange={override.toggle} />
       </div>

@@ -68,7 +68,7 @@ function LoopRow({ timing, level }: { timing: LoopTiming; level: string }) {
 function PowerDetails() {
   const power = useLatest(POWER);
   return (
-    <div className="readings readings-pairs">
+    <div className="readings">
       <Reading label="Motor power" source={POWER} value={fixed(power?.motor_power, 0)} unit="W" />
       <Reading label="Cost of transport" source={POWER} value={fixed(power?.cost_of_transport, 2)} />
     </div>

@@ -25,11 +25,11 @@ export function LeaseControl() {
 
   return (
     <div className="lease">
-      <span className="lease-holder" data-held={held}>
-        {held ? "You have control" : owner === "" ? "Nobody has control" : `${owner} has control`}
+      <span className="lease-holder" data-held={held && connected}>
+        {!connected ? "Control unknown" : held ? "You have control" : owner === "" ? "Nobody has control" : `${owner} has control`}
       </span>
       {held ? (
-        <Button size="xs" variant="default" loading={waiting} onClick={() => void ask("release_control")}>
+        <Button size="xs" variant="default" loading={waiting} disabled={!connected} onClick={() => void ask("release_control")}>
           Release control
         </Button>
       ) : (

@@ -7,9 +7,9 @@ export function StopButton() {
   const stopped = useLatest("state/mode")?.stopped ?? false;
   const pending = useConsole((state) => state.stopPending);
   return (
-    <button type="button" className="stop" aria-label="Stop robot" aria-keyshortcuts="Escape Space" onClick={stopRobot}>
+    <button type="button" className="stop" aria-keyshortcuts="Escape Space" onClick={stopRobot}>
       <span className="stop-word">Stop robot</span>
-      <span className="stop-hint">{pending ? "not sent yet" : stopped ? "stopped, latched" : "Esc or Space"}</span>
+      <span className="stop-hint" aria-hidden>{pending ? "not sent yet" : stopped ? "stopped, latched" : "Esc or Space"}</span>
     </button>
   );
 }
