@@ -11,12 +11,13 @@ from sim_agent.model import leg_links, link_poses
 from sim_agent.model.links import HUB
 from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import joint_frames_in_body
-from weaver_shared.transforms import Pose
+from weaver_shared.transforms import Pose, rotation_y
 
 Array = NDArray[np.float64]
 
 TUBE_SIDES = 10
 BALL_RINGS = 6
+EYE_BAR = 0.014  # m, half thickness of the camera's case
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,6 +55,7 @@ def _parts(robot: RobotDescription) -> tuple[Part, ...]:
     parts = [
         Part(shape="box", link=None, link_from_shape=_stretched(np.array(body.box_in_body), np.array(body.size) / 2))
     ]
+    parts += _camera_mount(robot)
     for link in leg_links(robot):
         if link.length == 0.0:
             parts.append(Part(shape="box", link=link.index, link_from_shape=_stretched(np.zeros(3), np.full(3, HUB))))
@@ -62,6 +64,20 @@ def _parts(robot: RobotDescription) -> tuple[Part, ...]:
         radius = robot.foot_radius if link.is_foot else link.radius
         parts.append(Part(shape="ball", link=link.index, link_from_shape=_stretched(link.end, np.full(3, radius))))
     return tuple(parts)
+
+
+def _camera_mount(robot: RobotDescription) -> list[Part]:
+    """A bar just behind both eyes, on a mast; neither reaches into their view."""
+    camera = robot.camera
+    eyes = np.array(camera.position_in_body)
+    rotation = rotation_y(camera.pitch_down)
+    bar = np.eye(4)
+    bar[:3, :3] = rotation * np.array([EYE_BAR, camera.baseline / 2 + 0.02, EYE_BAR])
+    bar[:3, 3] = eyes - rotation[:, 0] * 2.0 * EYE_BAR
+    foot = robot.body.box_in_body[2] + robot.body.size[2] / 2
+    middle = np.array([bar[0, 3], 0.0, (bar[2, 3] + foot) / 2])
+    mast = _stretched(middle, np.array([EYE_BAR, EYE_BAR, abs(bar[2, 3] - foot) / 2]))
+    return [Part(shape="box", link=None, link_from_shape=matrix) for matrix in (bar, mast)]
 
 
 def _stretched(centre: Array, half: Array) -> Array:

@@ -66,7 +66,7 @@ class InertialSensor:
         return batch
 
 
-@njit(cache=True)  # type: ignore[untyped-decorator]
+@njit(cache=True)
 def interval_means(
     before: Array, after: Array, velocity_before: Array, velocity_after: Array, dt: float
 ) -> tuple[Array, Array]:

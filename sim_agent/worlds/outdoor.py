@@ -31,7 +31,7 @@ def outdoor(seed: int) -> World:
         seed=seed,
         start=(0.0, 0.0, 0.0),
         bounds=(x0, x0 + SIZE, y0, y0 + SIZE),
-        planes=(Plane(height=float(z.min()) - 0.2, material="grass"),),
+        planes=(Plane(height=float(z.min()) - 0.2, material="earth"),),
         heightfields=(ground,),
     )
     boxes = (*_rocks(bare, generator), *_trunks(bare, generator))
