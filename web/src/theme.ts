@@ -2,10 +2,28 @@
 import { type CSSVariablesResolver, type MantineColorsTuple, createTheme } from "@mantine/core";
 
 const sea: MantineColorsTuple = [
-  "#e6f4f7", "#cbe6ed", "#9dd0dc", "#6bb8ca", "#3f9fb5", "#1f8aa2", "#127690", "#0b6b80", "#075a70", "#054a5d",
+  "#e6f4f7",
+  "#cbe6ed",
+  "#9dd0dc",
+  "#6bb8ca",
+  "#3f9fb5",
+  "#1f8aa2",
+  "#127690",
+  "#0b6b80",
+  "#075a70",
+  "#054a5d",
 ];
 const slate: MantineColorsTuple = [
-  "#e8edf2", "#c7d0d9", "#a5b0bc", "#8391a0", "#4b5967", "#384552", "#29343f", "#1c252e", "#141b22", "#0d1218",
+  "#e8edf2",
+  "#c7d0d9",
+  "#a5b0bc",
+  "#8391a0",
+  "#4b5967",
+  "#384552",
+  "#29343f",
+  "#1c252e",
+  "#141b22",
+  "#0d1218",
 ];
 
 export const theme = createTheme({

@@ -1,7 +1,14 @@
 import { expect, it } from "vitest";
 import { isStopKey } from "../src/stop/keys";
 
-const key = (name: string, code: string, ctrlKey = false) => ({ key: name, code, repeat: false, ctrlKey, altKey: false, metaKey: false });
+const key = (name: string, code: string, ctrlKey = false) => ({
+  key: name,
+  code,
+  repeat: false,
+  ctrlKey,
+  altKey: false,
+  metaKey: false,
+});
 
 it("stops on Escape everywhere, on Space only where it is not typed", () => {
   expect(isStopKey(key("Escape", "Escape"), true)).toBe(true);

@@ -40,7 +40,9 @@ describe("the sampler", () => {
   it("says three times that the dead-man was let go, at once, then nothing", () => {
     const sampler = new TeleopSampler();
     sampler.sample(inputs({ keys: keys("KeyW") }), 0);
-    const frames = [1, 2, 3, 4, 5].map((k) => sampler.sample(inputs({ deadMan: false, keys: keys("KeyW") }), 0.001 * k));
+    const frames = [1, 2, 3, 4, 5].map((k) =>
+      sampler.sample(inputs({ deadMan: false, keys: keys("KeyW") }), 0.001 * k),
+    );
     expect(frames.slice(0, 3)).toEqual([1, 2, 3].map(() => ({ dead_man: false, ...REST })));
     expect(frames.slice(3)).toEqual([null, null]);
   });

@@ -44,7 +44,10 @@ describe("a terrain tile", () => {
 });
 
 it("colours by the console's legend, clamped outside", () => {
-  const stops: [number, string][] = [[0, "#000000"], [1, "#ff8000"]];
+  const stops: [number, string][] = [
+    [0, "#000000"],
+    [1, "#ff8000"],
+  ];
   const scale = colourScale({ layer: "roughness", unit: "", stops, unknown: "#010203" });
   expect(colourOf(scale, -1)).toEqual([0, 0, 0]);
   expect(colourOf(scale, 0.5)).toEqual([128, 64, 0]);

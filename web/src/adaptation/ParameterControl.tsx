@@ -22,10 +22,14 @@ export function ParameterControl({ parameter, seconds }: { parameter: Parameter;
     <div className="parameter" data-overridden={override.active}>
       <div className="parameter-head">
         <h3>{label}</h3>
-        <span className="override-state">
-          {override.active ? "held" : "automatic"}
-        </span>
-        <Switch shown="Override" label={`Override ${label}`} checked={override.active} disabled={hindrance !== null} onChange={override.toggle} />
+        <span className="override-state">{override.active ? "held" : "automatic"}</span>
+        <Switch
+          shown="Override"
+          label={`Override ${label}`}
+          checked={override.active}
+          disabled={hindrance !== null}
+          onChange={override.toggle}
+        />
       </div>
       <div className="parameter-body">
         <div className="readings">

@@ -41,7 +41,8 @@ export function ParameterPlot({ parameter }: { parameter: Parameter }) {
     <figure className="plot">
       <div ref={box} role="img" aria-label={`${parameter.label} over the last minute`} />
       <figcaption>
-        <span className="line line-applied" aria-hidden /> current <span className="line line-desired" aria-hidden /> desired, 60 s
+        <span className="line line-applied" aria-hidden /> current <span className="line line-desired" aria-hidden />{" "}
+        desired, 60 s
       </figcaption>
     </figure>
   );

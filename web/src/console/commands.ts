@@ -45,7 +45,10 @@ export function stopRobot(): void {
     const id = String(++lastId);
     if (send({ type: "command", id, command: "stop", robot })) continue;
     useConsole.setState({ stopPending: true });
-    notify("error", "Stop could not be sent: the console is unreachable. It will be sent on reconnection; use the robot's own switch.");
+    notify(
+      "error",
+      "Stop could not be sent: the console is unreachable. It will be sent on reconnection; use the robot's own switch.",
+    );
   }
 }
 

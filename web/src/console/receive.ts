@@ -56,9 +56,7 @@ export function receive(state: ConsoleState, messages: readonly Incoming[], now:
 
 /** Whether `key` is one of `patterns`, each a key or a prefix followed by a star. */
 export function matches(key: string, patterns: readonly string[]): boolean {
-  return patterns.some((pattern) =>
-    pattern.endsWith("*") ? key.startsWith(pattern.slice(0, -1)) : key === pattern,
-  );
+  return patterns.some((pattern) => (pattern.endsWith("*") ? key.startsWith(pattern.slice(0, -1)) : key === pattern));
 }
 
 function forget(values: Record<string, unknown>, patterns: readonly string[]): void {

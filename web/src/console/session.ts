@@ -100,7 +100,8 @@ function react(message: Incoming, now: number): void {
       deliverPendingStop();
       break;
     case "value":
-      if (message.robot === useConsole.getState().selected) keep(message.key, message.value, now - 1000 * message.age_s);
+      if (message.robot === useConsole.getState().selected)
+        keep(message.key, message.value, now - 1000 * message.age_s);
       break;
     case "forget":
       terrain.forget((key) => matches(key, message.keys));

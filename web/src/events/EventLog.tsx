@@ -8,7 +8,11 @@ const SIGNS = { info: "i", warning: "!", error: "✕" } as const;
 export function EventLog() {
   const events = useConsole((state) => state.events);
   return (
-    <Panel title="Events" className="events" aside={<span className="hint">{events.length === 0 ? "" : "newest first"}</span>}>
+    <Panel
+      title="Events"
+      className="events"
+      aside={<span className="hint">{events.length === 0 ? "" : "newest first"}</span>}
+    >
       <div role="log" aria-label="Events" className="event-list" tabIndex={0}>
         {events.length === 0 && <p className="empty">Nothing has happened yet.</p>}
         {events.toReversed().map((event, k) => (

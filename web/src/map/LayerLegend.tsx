@@ -37,7 +37,11 @@ function LegendBar() {
   return (
     <div className="legend">
       <span className="number">{text(first[0])}</span>
-      <span className="legend-bar" style={{ background: `linear-gradient(to right, ${colours.join(", ")})` }} aria-hidden />
+      <span
+        className="legend-bar"
+        style={{ background: `linear-gradient(to right, ${colours.join(", ")})` }}
+        aria-hidden
+      />
       <span className="number">
         {text(last[0])}
         {unit}

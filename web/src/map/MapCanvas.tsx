@@ -50,7 +50,11 @@ export function MapCanvas() {
         return map.pan(-key.dx * scale, key.dy * scale);
       case "nudge":
         if (selected === undefined || draft.selected === null) return;
-        return dispatch({ type: "place", index: draft.selected, waypoint: { x: selected.x + key.dx, y: selected.y + key.dy } });
+        return dispatch({
+          type: "place",
+          index: draft.selected,
+          waypoint: { x: selected.x + key.dx, y: selected.y + key.dy },
+        });
       case "zoom":
         return map.zoom(key.factor);
       case "add":
@@ -59,7 +63,10 @@ export function MapCanvas() {
         return draft.selected === null ? undefined : dispatch({ type: "delete", index: draft.selected });
       case "next":
       case "previous":
-        return dispatch({ type: "select", index: neighbour(draft.selected, draft.waypoints.length, key.type === "next" ? 1 : -1) });
+        return dispatch({
+          type: "select",
+          index: neighbour(draft.selected, draft.waypoints.length, key.type === "next" ? 1 : -1),
+        });
       case "deselect":
         return dispatch({ type: "select", index: null });
       case "centre":

@@ -61,7 +61,13 @@ export function drawTrail(context: Context, view: View, trail: readonly Point[],
 }
 
 /** The way still to go: from the robot (when known) through the waypoints. */
-export function drawPath(context: Context, view: View, robot: Point | null, waypoints: readonly Waypoint[], ink: Ink): void {
+export function drawPath(
+  context: Context,
+  view: View,
+  robot: Point | null,
+  waypoints: readonly Waypoint[],
+  ink: Ink,
+): void {
   if (waypoints.length === 0) return;
   context.setLineDash([7, 5]);
   polyline(context, view, robot === null ? waypoints : [robot, ...waypoints]);

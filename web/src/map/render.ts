@@ -47,7 +47,13 @@ export function renderMap(context: CanvasRenderingContext2D, painter: TilePainte
   if (robot !== null && lookahead !== null) drawLookahead(context, view, robot, lookahead, ink);
   scene.waypoints.forEach((waypoint, index) => {
     const reached = mission?.phase === "done" || (running && index < next);
-    const mark = { waypoint, number: index + 1, selected: index === scene.selected, reached, last: index === scene.waypoints.length - 1 };
+    const mark = {
+      waypoint,
+      number: index + 1,
+      selected: index === scene.selected,
+      reached,
+      last: index === scene.waypoints.length - 1,
+    };
     drawWaypoint(context, view, mark, ink);
   });
   const truth = scene.truth === undefined ? null : positionOf(scene.truth.position_in_world);

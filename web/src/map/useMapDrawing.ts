@@ -37,7 +37,11 @@ export const INKS: Record<"light" | "dark", Ink> = {
   },
 };
 
-export function useMapDrawing(canvas: RefObject<HTMLCanvasElement | null>, view: RefObject<View>, crossHair: boolean): void {
+export function useMapDrawing(
+  canvas: RefObject<HTMLCanvasElement | null>,
+  view: RefObject<View>,
+  crossHair: boolean,
+): void {
   const ink = INKS[useComputedColorScheme("light")];
   const legend = useConsole((state) => state.legend);
   const scale = useMemo<ColourScale | null>(() => (legend === null ? null : colourScale(legend)), [legend]);
@@ -63,7 +67,16 @@ export function useMapDrawing(canvas: RefObject<HTMLCanvasElement | null>, view:
       const waypoints = shownWaypoints({ draft, dragging });
       const selected = draft.selected;
       renderMap(context, painter, {
-        view: view.current, scale, waypoints, selected, state: robot, level, mission, truth, crossHair, ink,
+        view: view.current,
+        scale,
+        waypoints,
+        selected,
+        state: robot,
+        level,
+        mission,
+        truth,
+        crossHair,
+        ink,
       });
     };
     draw();

@@ -33,7 +33,8 @@ export function useMapView(element: RefObject<HTMLElement | null>): MapView {
     const look = () => {
       const position = latest(useConsole.getState(), "tele/state")?.value.position_in_world;
       const at = position === undefined ? null : positionOf(position);
-      if (at !== null && (at.x !== view.current.x || at.y !== view.current.y)) view.current = { ...view.current, ...at };
+      if (at !== null && (at.x !== view.current.x || at.y !== view.current.y))
+        view.current = { ...view.current, ...at };
     };
     look();
     return useConsole.subscribe(look);

@@ -30,10 +30,20 @@ export function MissionPanel() {
     >
       <WaypointList />
       <div className="button-row">
-        <Button size="xs" variant="default" disabled={draft.past.length === 0} onClick={() => dispatch({ type: "undo" })}>
+        <Button
+          size="xs"
+          variant="default"
+          disabled={draft.past.length === 0}
+          onClick={() => dispatch({ type: "undo" })}
+        >
           Undo
         </Button>
-        <Button size="xs" variant="default" disabled={draft.future.length === 0} onClick={() => dispatch({ type: "redo" })}>
+        <Button
+          size="xs"
+          variant="default"
+          disabled={draft.future.length === 0}
+          onClick={() => dispatch({ type: "redo" })}
+        >
           Redo
         </Button>
         <MissionButtons unsent={unsent} />

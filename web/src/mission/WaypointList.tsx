@@ -36,7 +36,11 @@ export function WaypointList() {
       {draft.waypoints.length === 0 && (
         <div className="empty">
           <p>No waypoints. Click on the terrain or the map to place one.</p>
-          <button type="button" className="link-button" onClick={() => dispatch({ type: "add", waypoint: aheadOfRobot() })}>
+          <button
+            type="button"
+            className="link-button"
+            onClick={() => dispatch({ type: "add", waypoint: aheadOfRobot() })}
+          >
             Add waypoint by coordinates
           </button>
         </div>

@@ -34,12 +34,32 @@ export function WaypointRow({ index, waypoint, count, selected, next, dispatch }
         {next ? "▸" : ""}
         {index + 1}
       </button>
-      <CoordinateInput label="x" name={name} value={waypoint.x} onCommit={(x) => dispatch({ type: "place", index, waypoint: { ...waypoint, x } })} />
-      <CoordinateInput label="y" name={name} value={waypoint.y} onCommit={(y) => dispatch({ type: "place", index, waypoint: { ...waypoint, y } })} />
+      <CoordinateInput
+        label="x"
+        name={name}
+        value={waypoint.x}
+        onCommit={(x) => dispatch({ type: "place", index, waypoint: { ...waypoint, x } })}
+      />
+      <CoordinateInput
+        label="y"
+        name={name}
+        value={waypoint.y}
+        onCommit={(y) => dispatch({ type: "place", index, waypoint: { ...waypoint, y } })}
+      />
       <span className="waypoint-actions">
         <RowButton label={`Insert after ${name}`} sign="+" onPress={insert} />
-        <RowButton label={`Move ${name} up`} sign="↑" disabled={index === 0} onPress={() => dispatch({ type: "reorder", from: index, to: index - 1 })} />
-        <RowButton label={`Move ${name} down`} sign="↓" disabled={index === count - 1} onPress={() => dispatch({ type: "reorder", from: index, to: index + 1 })} />
+        <RowButton
+          label={`Move ${name} up`}
+          sign="↑"
+          disabled={index === 0}
+          onPress={() => dispatch({ type: "reorder", from: index, to: index - 1 })}
+        />
+        <RowButton
+          label={`Move ${name} down`}
+          sign="↓"
+          disabled={index === count - 1}
+          onPress={() => dispatch({ type: "reorder", from: index, to: index + 1 })}
+        />
         <RowButton label={`Delete ${name}`} sign="✕" onPress={() => dispatch({ type: "delete", index })} />
       </span>
     </li>
@@ -55,7 +75,15 @@ interface RowButtonProps {
 
 function RowButton({ label, sign, disabled = false, onPress }: RowButtonProps) {
   return (
-    <ActionIcon variant="subtle" color="gray" size="sm" aria-label={label} title={label} disabled={disabled} onClick={onPress}>
+    <ActionIcon
+      variant="subtle"
+      color="gray"
+      size="sm"
+      aria-label={label}
+      title={label}
+      disabled={disabled}
+      onClick={onPress}
+    >
       <span aria-hidden>{sign}</span>
     </ActionIcon>
   );

@@ -22,7 +22,12 @@ export function ConfirmStandDialog({ opened, robot, onCancel, onConfirm }: Confi
         <Text size="sm" mb="sm">
           The motors of {robot} switch on and it stands up. Keep people and cables clear.
         </Text>
-        <TextInput label={`Type ${robot} to go on`} value={typed} onChange={(event) => setTyped(event.currentTarget.value)} data-autofocus />
+        <TextInput
+          label={`Type ${robot} to go on`}
+          value={typed}
+          onChange={(event) => setTyped(event.currentTarget.value)}
+          data-autofocus
+        />
         <Group justify="flex-end" mt="md">
           <Button variant="default" onClick={onCancel}>
             Cancel

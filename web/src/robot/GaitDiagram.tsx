@@ -31,14 +31,20 @@ export function GaitDiagram() {
     <figure className="gait-diagram" data-freshness={level}>
       <canvas ref={canvas} style={{ height: count * ROW }} role="img" aria-label={spoken(gait?.swing, legs)} />
       <figcaption>
-        <span className="swatch swatch-stance" aria-hidden /> stance <span className="swatch swatch-swing" aria-hidden /> swing,
-        last {SPAN} s{level === "live" ? "" : level === "never" ? " (no data)" : ` (${level})`}
+        <span className="swatch swatch-stance" aria-hidden /> stance{" "}
+        <span className="swatch swatch-swing" aria-hidden /> swing, last {SPAN} s
+        {level === "live" ? "" : level === "never" ? " (no data)" : ` (${level})`}
       </figcaption>
     </figure>
   );
 }
 
-function draw(canvas: HTMLCanvasElement, count: number, legs: readonly string[], colours: (typeof COLOURS)["light"]): void {
+function draw(
+  canvas: HTMLCanvasElement,
+  count: number,
+  legs: readonly string[],
+  colours: (typeof COLOURS)["light"],
+): void {
   const context = canvas.getContext("2d");
   if (context === null) return;
   const ratio = devicePixelRatio;

@@ -22,7 +22,11 @@ export function CameraView() {
   }, [cameras]);
   return (
     <div className="camera">
-      {key === undefined ? <p className="view-empty">{cameras ? "No picture yet" : "Pictures are off"}</p> : <Picture source={key} />}
+      {key === undefined ? (
+        <p className="view-empty">{cameras ? "No picture yet" : "Pictures are off"}</p>
+      ) : (
+        <Picture source={key} />
+      )}
       {keys.length > 1 && (
         <NativeSelect
           className="camera-choice"
@@ -45,7 +49,11 @@ function Picture({ source }: { source: string }) {
   }
   return (
     <>
-      <img src={`data:image/jpeg;base64,${picture.jpeg}`} alt={`Picture of camera ${source.slice(PREFIX.length)}`} data-freshness={level} />
+      <img
+        src={`data:image/jpeg;base64,${picture.jpeg}`}
+        alt={`Picture of camera ${source.slice(PREFIX.length)}`}
+        data-freshness={level}
+      />
       {level === "stale" && <span className="view-age">{spokenAge(age)} old</span>}
     </>
   );

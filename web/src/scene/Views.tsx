@@ -25,7 +25,11 @@ export function Views() {
         {withScene ? (
           <ViewOptions />
         ) : (
-          <span className="hint">{webGl.available ? "The console runs without its 3-D view." : "This browser has no WebGL 2, so there is no 3-D view."}</span>
+          <span className="hint">
+            {webGl.available
+              ? "The console runs without its 3-D view."
+              : "This browser has no WebGL 2, so there is no 3-D view."}
+          </span>
         )}
       </div>
       {withScene && (

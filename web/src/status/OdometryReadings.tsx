@@ -20,7 +20,12 @@ export function OdometryReadings({ keys }: { keys: readonly HealthKey[] }) {
         <Reading label="Odometry" source={seeing} value={quality === "" ? UNKNOWN : quality} />
         <Reading label="Features" source={seeing} value={fixed(health?.tracked_features, 0)} />
         <Reading label="Pose age" source={seeing} value={milliseconds(health?.odometry_age)} unit="ms" />
-        <Reading label="Servo max" source={keys[hottest] ?? seeing} value={fixed(healths[hottest]?.max_temperature, 0)} unit="°C" />
+        <Reading
+          label="Servo max"
+          source={keys[hottest] ?? seeing}
+          value={fixed(healths[hottest]?.max_temperature, 0)}
+          unit="°C"
+        />
       </div>
       {(health?.odometry_reason ?? "") !== "" && <p className="hint">Odometry: {health?.odometry_reason}</p>}
     </>

@@ -20,7 +20,11 @@ export function TeleopPanel() {
   const teleop = useTeleop(enabled, keyboard, limit);
   const driving = teleop.frame !== null;
   return (
-    <Panel title="Drive by hand" className="teleop" aside={driving ? <span className="tag tag-caution">Driving</span> : undefined}>
+    <Panel
+      title="Drive by hand"
+      className="teleop"
+      aside={driving ? <span className="tag tag-caution">Driving</span> : undefined}
+    >
       <div className="teleop-body">
         <DrivePad enabled={enabled} stick={teleop.frame} onMove={teleop.movePad} />
         <div className="teleop-side">

@@ -24,6 +24,7 @@ export function useTeleop(enabled: boolean, keyboard: boolean, limit: number): T
   const held = useRef(false);
   const pad = useRef<Stick | null>(null);
   const keys = useRef(new Set<string>());
+  const sampler = useRef(new TeleopSampler());
 
   useEffect(() => {
     const letGo = () => {
@@ -60,11 +61,13 @@ export function useTeleop(enabled: boolean, keyboard: boolean, limit: number): T
   }, [enabled, keyboard]);
 
   useEffect(() => {
-    const sampler = new TeleopSampler();
     const timer = setInterval(() => {
       const reading = readGamepad(navigator.getGamepads());
       setGamepad(reading?.name ?? null);
-      const next = sampler.sample(inputs(reading, enabled, limit, held.current, pad.current, keys.current), performance.now() / 1000);
+      const next = sampler.current.sample(
+        inputs(reading, enabled, limit, held.current, pad.current, keys.current),
+        performance.now() / 1000,
+      );
       if (next === null) return;
       send({ type: "teleop", ...next });
       setFrame(next.dead_man ? next : null);
@@ -88,7 +91,8 @@ function inputs(
   pad: Stick | null,
   keys: ReadonlySet<string>,
 ) {
-  const shift = [...keys].some((code) => DEAD_MAN_KEYS.has(code));
-  const deadMan = enabled && (held || shift || pad !== null || reading?.deadMan === true);
+  // NOTE: Shift alone is no wish to drive, it also inserts waypoints on the map.
+  const shifted = [...keys].some((code) => DEAD_MAN_KEYS.has(code)) && [...keys].some(isDrivingKey);
+  const deadMan = enabled && (held || shifted || pad !== null || reading?.deadMan === true);
   return { keys, deadMan, pad, gamepad: reading?.stick ?? null, limit };
 }

@@ -30,8 +30,8 @@ export function ConnectionBanner() {
     case "lost":
       return (
         <p className="banner banner-danger" role="alert">
-          <strong>Console unreachable</strong> for <span aria-hidden>{spokenAge(age)}</span>. Values below are old. The robot holds by
-          itself within a second of losing its operator. Trying again.
+          <strong>Console unreachable</strong> for <span aria-hidden>{spokenAge(age)}</span>. Values below are old. The
+          robot holds by itself within a second of losing its operator. Trying again.
           {stopPending && <strong> Your stop has not been sent yet.</strong>}
         </p>
       );

@@ -26,10 +26,22 @@ export function LeaseControl() {
   return (
     <div className="lease">
       <span className="lease-holder" data-held={held && connected}>
-        {!connected ? "Control unknown" : held ? "You have control" : owner === "" ? "Nobody has control" : `${owner} has control`}
+        {!connected
+          ? "Control unknown"
+          : held
+            ? "You have control"
+            : owner === ""
+              ? "Nobody has control"
+              : `${owner} has control`}
       </span>
       {held ? (
-        <Button size="xs" variant="default" loading={waiting} disabled={!connected} onClick={() => void ask("release_control")}>
+        <Button
+          size="xs"
+          variant="default"
+          loading={waiting}
+          disabled={!connected}
+          onClick={() => void ask("release_control")}
+        >
           Release control
         </Button>
       ) : (
@@ -42,7 +54,12 @@ export function LeaseControl() {
           Take control
         </Button>
       )}
-      <TakeOverDialog opened={asking} owner={owner} onCancel={() => setAsking(false)} onTake={(why) => void ask("take_control", why)} />
+      <TakeOverDialog
+        opened={asking}
+        owner={owner}
+        onCancel={() => setAsking(false)}
+        onTake={(why) => void ask("take_control", why)}
+      />
     </div>
   );
 }

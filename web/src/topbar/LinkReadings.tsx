@@ -23,7 +23,9 @@ export function LinkReadings() {
         <dt>
           <span aria-hidden>↓</span> robot
         </dt>
-        <dd>{!open || down === null ? "none" : downLost ? `${spokenAge(down)} silent` : `${spokenAge(down)}, ${rate} Hz`}</dd>
+        <dd>
+          {!open || down === null ? "none" : downLost ? `${spokenAge(down)} silent` : `${spokenAge(down)}, ${rate} Hz`}
+        </dd>
       </div>
       <div data-bad={up === null} title="To the console and back, and to the robot and back for the last command">
         <dt>
@@ -31,7 +33,9 @@ export function LinkReadings() {
         </dt>
         <dd>
           {up === null ? "none" : `${milliseconds(up)} ms`}
-          {robotRoundTrip !== null && up !== null && <span className="unit">, robot {milliseconds(robotRoundTrip)} ms</span>}
+          {robotRoundTrip !== null && up !== null && (
+            <span className="unit">, robot {milliseconds(robotRoundTrip)} ms</span>
+          )}
         </dd>
       </div>
     </dl>

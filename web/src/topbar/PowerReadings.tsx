@@ -11,7 +11,10 @@ export function PowerReadings() {
   return (
     <div className="power" data-low={fraction !== null && fraction < LOW}>
       <Reading label="Battery" source="tele/power" value={fixed(power?.battery_voltage, 1)} unit="V">
-        <span className="unit"> {percent(fraction)} %{fraction !== null && fraction < LOW ? ", low" : ""}</span>
+        <span className="unit">
+          {" "}
+          {percent(fraction)} %{fraction !== null && fraction < LOW ? ", low" : ""}
+        </span>
       </Reading>
       <Reading label="Power" source="tele/power" value={fixed(power?.supply_power, 0)} unit="W" />
     </div>

@@ -44,7 +44,9 @@ function useStatus(): Status {
 }
 
 function described(mode: ModeState): Status {
-  const reasons = mode.stopped ? [`stop latched${mode.stop_level === "" ? "" : ` (${mode.stop_level})`}`, ...mode.reasons] : mode.reasons;
+  const reasons = mode.stopped
+    ? [`stop latched${mode.stop_level === "" ? "" : ` (${mode.stop_level})`}`, ...mode.reasons]
+    : mode.reasons;
   return { tone: modeTone(mode), state: mode.mode, words: modeWords(mode.mode), reasons };
 }
 

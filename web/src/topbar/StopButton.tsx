@@ -9,7 +9,9 @@ export function StopButton() {
   return (
     <button type="button" className="stop" aria-keyshortcuts="Escape Space" onClick={stopRobot}>
       <span className="stop-word">Stop robot</span>
-      <span className="stop-hint" aria-hidden>{pending ? "not sent yet" : stopped ? "stopped, latched" : "Esc or Space"}</span>
+      <span className="stop-hint" aria-hidden>
+        {pending ? "not sent yet" : stopped ? "stopped, latched" : "Esc or Space"}
+      </span>
     </button>
   );
 }

@@ -25,7 +25,9 @@ export function TopBar() {
         <ThemeToggle />
         <StopButton />
       </div>
-      {robot !== undefined && <p className={`banner ${KIND_CLASS[robot.kind]}`}>{bannerText(robot.kind, robot.world)}</p>}
+      {robot !== undefined && (
+        <p className={`banner ${KIND_CLASS[robot.kind]}`}>{bannerText(robot.kind, robot.world)}</p>
+      )}
       {robot !== undefined && robot.conflict !== "" && (
         <p className="banner banner-danger" role="alert">
           {robot.conflict}
