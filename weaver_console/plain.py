@@ -12,6 +12,10 @@ from weaver_shared.messages import CameraPicture, MapTile
 DECIMALS = 5
 """Digits kept behind the point: 10 micrometres or microradians, half the bytes of full doubles."""
 
+FINE = frozenset({"covariance", "gyro_bias", "accel_bias"})
+FINE_DECIMALS = 10
+"""For fields whose squares or drifts are far smaller than that."""
+
 _encoder = msgspec.json.Encoder()  # NaN and infinities become null
 
 
@@ -26,16 +30,18 @@ def plain(message: Any) -> Any:
     return _plain(message)
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: Any, decimals: int = DECIMALS) -> Any:
     if isinstance(value, float):
-        return round(value, DECIMALS)
+        return round(value, decimals)
     if isinstance(value, np.ndarray):
-        rounded = np.round(value, DECIMALS) if value.dtype.kind == "f" else value
+        rounded = np.round(value, decimals) if value.dtype.kind == "f" else value
         return rounded.tolist()
     if isinstance(value, tuple):
         return [_plain(item) for item in value]
     if dataclasses.is_dataclass(value):
-        return {name: _plain(getattr(value, name)) for name in _names(value)}
+        return {
+            name: _plain(getattr(value, name), FINE_DECIMALS if name in FINE else DECIMALS) for name in _names(value)
+        }
     return value
 
 

@@ -34,7 +34,11 @@ logger = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 ACCEPTANCE_RADIUS = 0.15
-CAMERA_BEHIND = np.array([-1.6, -1.1, 1.1])
+CAMERA_FROM_ROBOT = np.array([-1.25, -0.85, 0.75])
+LOOK_FROM_ROBOT = np.array([0.35, 0.0, -0.05])
+STILL = 3e-4
+"""Changes of pose (m, and of its quaternion) and joints (rad) below this are not drawn: the browser then rests too."""
+
 FOLLOW_STEP = 0.02
 
 
@@ -64,6 +68,7 @@ class _Shown:
     mission: MissionFigure
     frustum: Any = None
     followed: Array | None = None
+    drawn: RobotState | None = None
     versions: dict[str, int] = field(default_factory=dict)
 
 
@@ -133,7 +138,10 @@ class PageScene:
         state = record.newest("tele/state", RobotState)
         if state is None or shown.figure is None or shown.motion is None or not _drawable(state, shown.robot):
             return
-        if _new(shown, record, "tele/state"):
+        if shown.drawn is None:
+            self._place_camera(state.position_in_world)
+        if _new(shown, record, "tele/state") and _moved(shown.drawn, state):
+            shown.drawn = state
             shown.figure.update(state.position_in_world, state.wxyz, state.joint_position, state.foot_contact)
             shown.motion.update(state)
             shown.motion.lookahead(state, record.mission)
@@ -186,8 +194,7 @@ class PageScene:
             "/grid", width=40.0, height=40.0, cell_size=1.0, section_size=5.0, cell_color=(52, 58, 66),
             section_color=(74, 82, 92), fade_distance=25.0, position=(0.0, 0.0, -0.02),
         )  # fmt: skip
-        self._server.initial_camera.position = tuple(CAMERA_BEHIND)
-        self._server.initial_camera.look_at = (0.6, 0.0, 0.0)
+        self._place_camera(np.zeros(3))
         self._server.scene.on_click()(self._clicked)
 
     def _clicked(self, event: Any) -> None:
@@ -200,6 +207,14 @@ class PageScene:
             self._on_pick(point)
         except Exception:
             logger.exception("a click in the scene was lost")
+
+    def _place_camera(self, position: Array) -> None:
+        """Look at a robot that has just been selected, from behind and above."""
+        eye, target = position + CAMERA_FROM_ROBOT, position + LOOK_FROM_ROBOT
+        self._server.initial_camera.position = tuple(eye)
+        self._server.initial_camera.look_at = tuple(target)
+        for client in self._server.get_clients().values():
+            client.camera.position, client.camera.look_at = eye, target
 
     def _follow(self, shown: _Shown, position: Array) -> None:
         """Move the cameras along with the robot; the operator goes on turning and zooming them."""
@@ -232,6 +247,17 @@ def _drawable(state: RobotState, robot: RobotDescription | None) -> bool:
         return False
     numbers = (state.position_in_world, state.wxyz, state.joint_position, state.foot_in_body)
     return all(bool(np.isfinite(part).all()) for part in numbers) and bool(np.any(state.wxyz))
+
+
+def _moved(before: RobotState | None, now: RobotState) -> bool:
+    if before is None or not np.array_equal(before.foot_contact, now.foot_contact):
+        return True
+    pairs = (
+        (before.position_in_world, now.position_in_world),
+        (before.wxyz, now.wxyz),
+        (before.joint_position, now.joint_position),
+    )
+    return any(float(np.abs(a - b).max()) > STILL for a, b in pairs)
 
 
 def _new(shown: _Shown, record: RobotRecord, key: str) -> bool:
