@@ -49,6 +49,7 @@ class FrontEnd:
         self._identity = np.zeros(0, dtype=np.int64)
         self._pixel = np.zeros((0, 2))  # in the left picture
         self._depth = np.zeros(0)  # m along the left optical axis, NaN unknown
+        self._ground: Array | None = None  # inverse depth over the picture, from the newest matched pair
 
     def step(self, frame: StereoFrame, left_from_previous: Pose) -> Tracks:
         """Follow features into `frame` and find new ones."""
@@ -83,6 +84,7 @@ class FrontEnd:
     def forget_all(self) -> None:
         self._keep(np.zeros(len(self._identity), dtype=np.bool_))
         self._previous = None
+        self._ground = None
 
     def _keep(self, mask: Mask) -> None:
         self._identity, self._pixel, self._depth = self._identity[mask], self._pixel[mask], self._depth[mask]
@@ -122,11 +124,10 @@ class FrontEnd:
 
     def _match(self, left: Picture, right: Picture, plane: Array) -> tuple[Array, Mask]:
         """Find the tracks, at `plane` (n, 2) in the left eye, in the right one: where, and which are good."""
-        coefficients = fit_inverse_depth(plane, self._depth)
-        if coefficients is None:
+        if self._ground is None:
             guesses = [np.full(len(plane), guess) for guess in FIRST_INVERSE_DEPTHS]
         else:
-            assumed = np.where(np.isfinite(self._depth), self._depth, 1.0 / inverse_depth(coefficients, plane))
+            assumed = np.where(np.isfinite(self._depth), self._depth, 1.0 / inverse_depth(self._ground, plane))
             guesses = [1.0 / np.maximum(assumed, self._config.nearest)]
         best = np.zeros((len(plane), 2))
         best_error = np.full(len(plane), np.inf)
@@ -137,6 +138,7 @@ class FrontEnd:
             best[better], best_error[better], best_depth[better] = where[better], error[better], depth[better]
         good = np.isfinite(best_error)
         self._depth = np.where(good, best_depth, np.nan)
+        self._ground = fit_inverse_depth(plane, self._depth)
         return best, good
 
     def _match_from(self, left: Picture, right: Picture, plane: Array, guess: Array) -> tuple[Array, Array, Array]:
@@ -152,11 +154,10 @@ class FrontEnd:
         return where, np.where(good, error, np.inf), depth
 
     def _assumed_depth(self, plane: Array) -> Array:
-        coefficients = fit_inverse_depth(plane, self._depth)
-        if coefficients is None:
-            known = self._depth[np.isfinite(self._depth)]
-            return np.where(np.isfinite(self._depth), self._depth, np.median(known) if len(known) else 1.0)
-        return np.where(np.isfinite(self._depth), self._depth, 1.0 / inverse_depth(coefficients, plane))
+        known = np.isfinite(self._depth)
+        if self._ground is not None:
+            return np.where(known, self._depth, 1.0 / inverse_depth(self._ground, plane))
+        return np.where(known, self._depth, np.median(self._depth[known]) if known.any() else 1.0)
 
     def _inside(self, camera: PinholeCamera, pixel: Array) -> Mask:
         edge = 2.0
@@ -183,7 +184,12 @@ def _lucas_kanade(
         flags=cv2.OPTFLOW_USE_INITIAL_FLOW,
         minEigThreshold=1e-3,
     )
-    return found.reshape(-1, 2).astype(np.float64), status.ravel() == 1, error.ravel().astype(np.float64)
+    tracked = status.ravel() == 1
+    # OpenCV leaves the results of lost points as it found the memory.
+    where, grey_error = np.zeros((len(pixel), 2)), np.zeros(len(pixel))
+    where[tracked] = found.reshape(-1, 2)[tracked]
+    grey_error[tracked] = error.ravel()[tracked]
+    return where, tracked, grey_error
 
 
 def _stereo_depth(right_from_left: Pose, rays: Array, where: Array) -> tuple[Array, Array]:
