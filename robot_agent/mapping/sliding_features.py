@@ -54,8 +54,8 @@ def cell_features(elevation: Grid, variance: Grid, config: MappingConfig) -> Cel
     window = 2 * half + 1
     fewest = max(3.0, config.min_coverage * window**2)
     weights = _weights(config.features)
-    contributions = _contributions(elevation, variance, config.cell, weights.edge_height)
-    return CellFeatures(*_slide(contributions, half, fewest, weights, _relative_sigmas(window, config.cell)))
+    relative = _relative_sigmas(window, config.cell)
+    return CellFeatures(*_slide(elevation, variance, config.cell, half, fewest, weights, relative))
 
 
 def _weights(features: FeatureConfig) -> _Weights:
@@ -68,43 +68,6 @@ def _weights(features: FeatureConfig) -> _Weights:
         edge_steps=features.edge_weight / features.step_norm,
         edge_height=features.edge_height,
     )
-
-
-@njit(cache=True)
-def _contributions(elevation: Grid, variance: Grid, cell: float, edge_height: float) -> NDArray[np.float64]:
-    """What each cell adds to the sums, (rows, columns, SUMS); heights about the grid's mean against rounding."""
-    rows, columns = elevation.shape
-    sums = np.zeros((rows, columns, SUMS))
-    mean, known = 0.0, 0
-    for r in range(rows):
-        for c in range(columns):
-            if not np.isnan(elevation[r, c]):
-                mean += elevation[r, c]
-                known += 1
-    mean /= max(1, known)
-    for r in range(rows):
-        for c in range(columns):
-            z0 = elevation[r, c]
-            if np.isnan(z0):
-                continue
-            z, x, y = float(z0) - mean, r * cell, c * cell
-            s = sums[r, c]
-            s[0], s[1], s[2], s[3], s[4], s[5] = 1.0, x, y, x * x, x * y, y * y
-            s[6], s[7], s[8], s[9], s[10] = z, x * z, y * z, z * z, variance[r, c]
-            down = elevation[r + 1, c] - z0 if r + 1 < rows else np.nan
-            right = elevation[r, c + 1] - z0 if c + 1 < columns else np.nan
-            noise = variance[r, c]
-            for step in (down, right):
-                if not np.isnan(step):
-                    s[11] += 1.0
-                    if abs(step) > edge_height + 2.0 * np.sqrt(noise):
-                        s[12] += 1.0
-                        s[13] += abs(step)
-            if not np.isnan(down) and not np.isnan(right):
-                gradient = (down * down + right * right - 4.0 * noise) / (cell * cell)
-                s[14] = 1.0
-                s[15] = np.sqrt(1.0 + max(0.0, gradient))
-    return sums
 
 
 def _relative_sigmas(window: int, cell: float) -> NDArray[np.float64]:
@@ -120,24 +83,34 @@ def _relative_sigmas(window: int, cell: float) -> NDArray[np.float64]:
 
 @njit(cache=True)
 def _slide(  # noqa: PLR0915
-    contributions: NDArray[np.float64], half: int, fewest: float, weights: _Weights, relative: NDArray[np.float64]
+    elevation: Grid,
+    variance: Grid,
+    cell: float,
+    half: int,
+    fewest: float,
+    weights: _Weights,
+    relative: NDArray[np.float64],
 ) -> tuple[Grid, Grid, Grid, Grid, Grid]:
-    rows, columns, _ = contributions.shape
-    flat = contributions.reshape(rows, columns * SUMS)
+    rows, columns = elevation.shape
     roughness = np.full((rows, columns), np.nan, dtype=np.float32)
     roughness_sigma = np.full((rows, columns), np.nan, dtype=np.float32)
     step_height = np.full((rows, columns), np.nan, dtype=np.float32)
     step_height_sigma = np.full((rows, columns), np.nan, dtype=np.float32)
     slope = np.full((rows, columns), np.nan, dtype=np.float32)
+    mean = _mean(elevation)
+    # What the window's rows add, and the row that leaves it next: few enough to stay in the processor's cache.
+    ring = np.zeros((2 * half + 2, columns * SUMS))
     # Sums over the window's rows, with empty columns to both sides so that the window may slide off the grid.
     padded = np.zeros((columns + 2 * half + 1, SUMS))
     column_sums = padded[half + 1 : half + 1 + columns].reshape(columns * SUMS)
     window = np.zeros(SUMS)
     for r in range(-half, rows):
         if r + half < rows:
-            _add(column_sums, flat[r + half], 1.0)
+            entering_row = ring[(r + half) % ring.shape[0]]
+            _contribute(elevation, variance, r + half, mean, cell, weights.edge_height, entering_row)
+            _add(column_sums, entering_row, 1.0)
         if r - half - 1 >= 0:
-            _add(column_sums, flat[r - half - 1], -1.0)
+            _add(column_sums, ring[(r - half - 1) % ring.shape[0]], -1.0)
         if r < 0:
             continue
         window[:] = 0.0
@@ -185,3 +158,51 @@ def _slide(  # noqa: PLR0915
 def _add(sums: NDArray[np.float64], terms: NDArray[np.float64], sign: float) -> None:
     for k in range(sums.shape[0]):
         sums[k] += sign * terms[k]
+
+
+@njit(cache=True)
+def _mean(elevation: Grid) -> float:
+    """Mean of the known heights; heights about it lose less to rounding."""
+    total, known = 0.0, 0
+    for z in elevation.ravel():
+        if not np.isnan(z):
+            total += float(z)
+            known += 1
+    return total / max(1, known)
+
+
+@njit(cache=True)
+def _contribute(
+    elevation: Grid,
+    variance: Grid,
+    r: int,
+    mean: float,
+    cell: float,
+    edge_height: float,
+    sums: NDArray[np.float64],
+) -> None:
+    """Fill `sums` (columns * SUMS) with what each cell of row `r` adds to a window that holds it."""
+    rows, columns = elevation.shape
+    x = r * cell
+    sums[:] = 0.0
+    for c in range(columns):
+        z0 = elevation[r, c]
+        if np.isnan(z0):
+            continue
+        z, y, noise = float(z0) - mean, c * cell, float(variance[r, c])
+        s = sums[c * SUMS : (c + 1) * SUMS]
+        s[0], s[1], s[2], s[3], s[4], s[5] = 1.0, x, y, x * x, x * y, y * y
+        s[6], s[7], s[8], s[9], s[10] = z, x * z, y * z, z * z, noise
+        down = float(elevation[r + 1, c] - z0) if r + 1 < rows else np.nan
+        right = float(elevation[r, c + 1] - z0) if c + 1 < columns else np.nan
+        for step in (abs(down), abs(right)):
+            if not np.isnan(step):
+                s[11] += 1.0
+                beyond = step - edge_height
+                if beyond > 0.0 and beyond * beyond > 4.0 * noise:
+                    s[12] += 1.0
+                    s[13] += step
+        if not np.isnan(down) and not np.isnan(right):
+            gradient = (down * down + right * right - 4.0 * noise) / (cell * cell)
+            s[14] = 1.0
+            s[15] = np.sqrt(1.0 + max(0.0, gradient))

@@ -152,17 +152,18 @@ class TerrainMap:
 
     def _renew_features(self, extent: Extent) -> None:
         """Features of the changed cells and of all whose square holds one of them."""
-        grid, half = self.grid, self._config.window // 2
-        rows = grid.slots(extent.row - 2 * half, extent.row_end + 2 * half, grid.row0)
-        columns = grid.slots(extent.column - 2 * half, extent.column_end + 2 * half, grid.column0)
+        grid = self.grid
+        reach = self._config.window // 2 + 1  # and one more: a cell's edges are those to its next neighbours
+        rows = grid.slots(extent.row - 2 * reach, extent.row_end + 2 * reach, grid.row0)
+        columns = grid.slots(extent.column - 2 * reach, extent.column_end + 2 * reach, grid.column0)
         place = np.ix_(rows, columns)
         features = cell_features(grid.elevation[place], grid.variance[place], self._config)
-        inner_row = max(extent.row - half, grid.row0)
-        inner_column = max(extent.column - half, grid.column0)
-        inner_row_end = min(extent.row_end + half, grid.row0 + grid.size)
-        inner_column_end = min(extent.column_end + half, grid.column0 + grid.size)
-        skip_row = inner_row - max(extent.row - 2 * half, grid.row0)
-        skip_column = inner_column - max(extent.column - 2 * half, grid.column0)
+        inner_row = max(extent.row - reach, grid.row0)
+        inner_column = max(extent.column - reach, grid.column0)
+        inner_row_end = min(extent.row_end + reach, grid.row0 + grid.size)
+        inner_column_end = min(extent.column_end + reach, grid.column0 + grid.size)
+        skip_row = inner_row - max(extent.row - 2 * reach, grid.row0)
+        skip_column = inner_column - max(extent.column - 2 * reach, grid.column0)
         inner = (
             slice(skip_row, skip_row + inner_row_end - inner_row),
             slice(skip_column, skip_column + inner_column_end - inner_column),

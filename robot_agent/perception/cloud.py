@@ -16,7 +16,8 @@ Array = NDArray[np.float64]
 CloudFrame = Literal["optical", "z up"]
 
 HYPOTHESES = 400
-SAMPLE = 20_000  # points that judge a hypothesis
+SAMPLE = 6_000  # points that judge a hypothesis
+REFINING = 20_000  # points of the final fit
 INLIER = 0.01  # m per metre of distance and at least: how thick a plane may look
 NEAR_PLANE = 0.03  # m about the first plane that its refinement looks at
 STEEPEST_VIEW = np.deg2rad(75.0)  # the camera looks down on ground by less, or it looks at a wall
@@ -56,8 +57,8 @@ def level(points: Array, *, seed: int = 0) -> LevelledCloud:
         level_from_input = _levelling(normal, offset, frame)
         levelled = level_from_input.transform(points)
         near = np.flatnonzero(np.abs(levelled[:, 2]) < NEAR_PLANE)
-        if len(near) > 4 * SAMPLE:
-            near = generator.choice(near, 4 * SAMPLE, replace=False)
+        if len(near) > REFINING:
+            near = generator.choice(near, REFINING, replace=False)
         x, y, z = levelled[near].T
         plane = fit_plane(x, y, z, mode="robust")
         normal = level_from_input.rotation.T @ plane.normal

@@ -46,7 +46,8 @@ def load_terrain(path: Path, scale: float = 1.0) -> Cloud | ElevationGrid:
     if not path.is_file():
         raise InputError(f"{path} is not a file; a terrain is an .npz file with a point cloud or an elevation grid")
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        with path.open("rb") as stream:
+            archive = np.load(stream, allow_pickle=False)
             if not isinstance(archive, Mapping):
                 raise InputError(f"{path} holds a bare array; a terrain is an .npz file with named arrays")
             arrays = {key: archive[key] for key in archive}
