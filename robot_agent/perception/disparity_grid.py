@@ -24,6 +24,10 @@ INDEPENDENT_POINTS = 8.0
 
 LARGEST_DISPARITY = 256  # px
 
+# What is gathered of a cell lies side by side, in one line of the processor's cache.
+_HIGHEST, _VARIANCE, _SUM, _NUMBER = range(4)
+_TOP_FIELDS = 4
+
 BORDER = 3  # px at the top and bottom, where half a matching window is missing
 
 
@@ -128,10 +132,10 @@ class DisparityGrid:
         a, b, c = (float(value) for value in ground)
         gate = _Gate(a=a, b=b, c=c, height=config.height_gate, slope=config.gate_slope, reach=config.reach)
         cells = _Cells(row0=row, column0=column, size=size, cell=config.cell)
-        top = np.full(size * size, -np.inf, dtype=np.float32)
-        variance = np.full(size * size, np.nan, dtype=np.float32)
-        count = _list_points(disparity, projection, gate, cells, self._points, top, variance)
-        elevation = _average_tops(count, self._points, top, variance, config.top_band, config.min_points)
+        tops = np.zeros((size * size, _TOP_FIELDS), dtype=np.float32)
+        tops[:, _HIGHEST] = -np.inf
+        count = _list_points(disparity, projection, gate, cells, self._points, tops)
+        elevation, variance = _average_tops(count, self._points, tops, config.top_band, config.min_points)
         _drop_lonely(elevation.reshape(size, size), config.companions, config.companion_step)
         return HeightGrid(
             row0=row,
@@ -149,10 +153,9 @@ def _list_points(
     gate: _Gate,
     cells: _Cells,
     points: _Points,
-    top: NDArray[np.float32],
-    variance: NDArray[np.float32],
+    tops: NDArray[np.float32],
 ) -> int:
-    """List the points within reach and gate; `top` gets each cell's highest. Returns their number."""
+    """List the points within reach and gate; `tops` gets each cell's highest. Returns their number."""
     height, width = disparity.shape
     rotation, position = projection.rotation, projection.position
     # World direction of each column, to which a row adds its own; scaled to cells in the plane.
@@ -191,43 +194,33 @@ def _list_points(
             points.cell[listed] = index
             points.height[listed] = z
             listed += 1
-            top[index] = max(top[index], np.float32(z))
+            tops[index, _HIGHEST] = max(tops[index, _HIGHEST], np.float32(z))
             # A depth error moves the point along its ray; its height moves by the ray's vertical part. The points of
             # one cell differ little in this.
             sigma = projection.depth_sigmas[d] * z_slope
-            variance[index] = sigma * sigma
+            tops[index, _VARIANCE] = sigma * sigma
     return listed
 
 
 @njit(cache=True)
 def _average_tops(
-    count: int,
-    points: _Points,
-    top: NDArray[np.float32],
-    variance: NDArray[np.float32],
-    band: float,
-    min_points: int,
-) -> NDArray[np.float32]:
-    """Mean of the points in the band under each cell's highest: its top without a maximum's bias upwards.
-
-    `variance` goes from that of one point to that of the mean.
-    """
-    elevation = np.zeros(top.shape[0], dtype=np.float32)
-    number = np.zeros(top.shape[0], dtype=np.int32)
+    count: int, points: _Points, tops: NDArray[np.float32], band: float, min_points: int
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Mean of the points in the band under each cell's highest, its top without a maximum's bias; and its variance."""
     for k in range(count):
         index = points.cell[k]
-        if points.height[k] >= top[index] - band:
-            elevation[index] += points.height[k]
-            number[index] += 1
-    for index in range(top.shape[0]):
-        n = number[index]
-        if n < min_points:
-            elevation[index] = np.nan
-            variance[index] = np.nan
-        else:
-            elevation[index] /= n
-            variance[index] /= 1.0 + (n - 1) / INDEPENDENT_POINTS
-    return elevation
+        if points.height[k] >= tops[index, _HIGHEST] - band:
+            tops[index, _SUM] += points.height[k]
+            tops[index, _NUMBER] += np.float32(1.0)
+    cells = tops.shape[0]
+    elevation = np.full(cells, np.nan, dtype=np.float32)
+    variance = np.full(cells, np.nan, dtype=np.float32)
+    for index in range(cells):
+        n = tops[index, _NUMBER]
+        if n >= min_points:
+            elevation[index] = tops[index, _SUM] / n
+            variance[index] = tops[index, _VARIANCE] / (1.0 + (n - 1.0) / INDEPENDENT_POINTS)
+    return elevation, variance
 
 
 @njit(cache=True)
