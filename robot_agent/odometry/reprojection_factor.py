@@ -127,20 +127,13 @@ def add_reprojections(
     by_pose = np.empty((2, 6))
     by_point = np.empty((2, 3))
     error = np.empty(2)
-    motion = np.empty((count, 6))
-    for k in range(count):
-        motion[k, :3] = origin.rate[k]
-        motion[k, 3:] = origin.velocity[k]
+    motion = np.concatenate((origin.rate[:count], origin.velocity[:count]), axis=1)
     cost = 0.0
     seeing = np.empty(count, dtype=np.int64)
     for row in range(landmarks.identity.shape[0]):
         if not chosen[row] or not landmarks.solved[row]:
             continue
-        number = 0
-        for k in range(count):
-            if landmarks.seen[row, k]:
-                seeing[number] = k
-                number += 1
+        number = _frames_seeing(landmarks, row, count, seeing)
         if number < 2:
             continue
         own = np.zeros((3, 3))
@@ -161,27 +154,21 @@ def add_reprojections(
                 size = np.sqrt(error[0] * error[0] + error[1] * error[1])
                 weight = 1.0 if size <= huber else huber / size
                 cost += 0.5 * size * size if size <= huber else huber * (size - 0.5 * huber)
-                for r in range(2):
-                    by_offset = 0.0
-                    for a in range(6):
-                        by_offset += by_pose[r, a] * motion[k, a]
-                    w_error = weight * error[r]
-                    for a in range(6):
-                        wa = weight * by_pose[r, a]
-                        for b in range(a, 6):
-                            hessian[base + a, base + b] += wa * by_pose[r, b]
-                        for b in range(3):
-                            coupling[a, b] += wa * by_point[r, b]
-                        hessian[base + a, t] += wa * by_offset
-                        gradient[base + a] += by_pose[r, a] * w_error
-                    for a in range(3):
-                        wa = weight * by_point[r, a]
-                        for b in range(3):
-                            own[a, b] += wa * by_point[r, b]
-                        offset[a] += wa * by_offset
-                        own_gradient[a] += by_point[r, a] * w_error
-                    hessian[t, t] += weight * by_offset * by_offset
-                    gradient[t] += by_offset * w_error
+                _accumulate(
+                    by_pose,
+                    by_point,
+                    error,
+                    weight,
+                    motion[k],
+                    base,
+                    t,
+                    coupling,
+                    own,
+                    own_gradient,
+                    offset,
+                    hessian,
+                    gradient,
+                )
         trace = own[0, 0] + own[1, 1] + own[2, 2]
         for a in range(3):
             own[a, a] += 1e-9 * trace
@@ -190,6 +177,56 @@ def add_reprojections(
         elimination.offset_coupling[row] = offset
         _eliminate(elimination, row, seeing, number, t, hessian, gradient)
     return cost
+
+
+@compiled
+def _frames_seeing(landmarks: Landmarks, row: int, count: int, seeing: NDArray[np.int64]) -> int:
+    number = 0
+    for k in range(count):
+        if landmarks.seen[row, k]:
+            seeing[number] = k
+            number += 1
+    return number
+
+
+@compiled
+def _accumulate(
+    by_pose: Array,
+    by_point: Array,
+    error: Array,
+    weight: float,
+    motion: Array,
+    base: int,
+    t: int,
+    coupling: Array,
+    own: Array,
+    own_gradient: Array,
+    offset: Array,
+    hessian: Array,
+    gradient: Array,
+) -> None:
+    """One eye's normal equations: pose at `base`, time offset at `t`, and the landmark's own block."""
+    for r in range(2):
+        by_offset = 0.0
+        for a in range(6):
+            by_offset += by_pose[r, a] * motion[a]
+        w_error = weight * error[r]
+        for a in range(6):
+            wa = weight * by_pose[r, a]
+            for b in range(a, 6):
+                hessian[base + a, base + b] += wa * by_pose[r, b]
+            for b in range(3):
+                coupling[a, b] += wa * by_point[r, b]
+            hessian[base + a, t] += wa * by_offset
+            gradient[base + a] += by_pose[r, a] * w_error
+        for a in range(3):
+            wa = weight * by_point[r, a]
+            for b in range(3):
+                own[a, b] += wa * by_point[r, b]
+            offset[a] += wa * by_offset
+            own_gradient[a] += by_point[r, a] * w_error
+        hessian[t, t] += weight * by_offset * by_offset
+        gradient[t] += by_offset * w_error
 
 
 @compiled
@@ -240,17 +277,23 @@ def move_points(
     landmarks: Landmarks, chosen: NDArray[np.bool_], elimination: Elimination, count: int, step: Array
 ) -> None:
     """Each landmark's own step, given that of the frames (unknowns,)."""
+    pull = np.empty(3)
     for row in range(landmarks.identity.shape[0]):
         if not chosen[row] or not landmarks.solved[row]:
             continue
         number = 0
-        pull = elimination.gradient[row] + elimination.offset_coupling[row] * step[STATE * count]
+        for b in range(3):
+            pull[b] = elimination.gradient[row, b] + elimination.offset_coupling[row, b] * step[STATE * count]
         for k in range(count):
             if landmarks.seen[row, k]:
                 number += 1
-                pull += np.ascontiguousarray(elimination.coupling[row, k].T) @ step[STATE * k : STATE * k + 6]
+                for a in range(6):
+                    for b in range(3):
+                        pull[b] += elimination.coupling[row, k, a, b] * step[STATE * k + a]
         if number >= 2:
-            landmarks.point[row] -= elimination.inverse[row] @ pull
+            for a in range(3):
+                for b in range(3):
+                    landmarks.point[row, a] -= elimination.inverse[row, a, b] * pull[b]
 
 
 @compiled

@@ -33,8 +33,8 @@ Array = NDArray[np.float64]
 ROWS = 768
 """Landmarks the table holds: more than 8 keyframes of 130 features with 85 % overlap can name."""
 
-CONVERGED = 1e-6
-"""A step below this (m, rad) changes nothing any more."""
+CONVERGED = 1e-5
+"""A step below this (m, rad) is far below what the pictures can tell."""
 
 GYRO_BIAS_DRIFT, ACCEL_BIAS_DRIFT = 0.01, 0.1
 """rad/s, m/s^2: a bias further than this from the one integrated with needs a second integration."""

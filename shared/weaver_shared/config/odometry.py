@@ -37,11 +37,11 @@ class WindowConfig(_Model):
     keyframe_overlap: Annotated[float, Field(gt=0.0, le=1.0)] = 0.85  # a new keyframe sees less of the last one
     keyframe_interval: Positive = 5.0  # s, the longest stretch of inertia between keyframes
     iterations: Count = 3
-    pixel_sigma: Positive = 0.7
+    pixel_sigma: Positive = 0.5
     huber: Positive = 1.0  # sigma
     gate: Positive = 4.5  # sigma, beyond it an observation is wrong
     parallax: Positive = 0.02  # rad between two rays before they make a point
-    time_offset_sigma: Annotated[float, Field(ge=0.0)] = 0.003  # s, 0 fixes the calibrated offset
+    time_offset_sigma: Annotated[float, Field(ge=0.0)] = 0.001  # s, 0 fixes the calibrated offset
 
 
 class StartConfig(_Model):
