@@ -115,14 +115,12 @@ def _picture(path: Path | None) -> NDArray[np.uint8]:
 
 def _inertia(path: Path) -> ImuBatch:
     try:
-        table = np.genfromtxt(path, delimiter=",", comments="#", usecols=range(1, 7))
-        stamps = np.array(
-            [int(line.partition(",")[0]) for line in path.read_text().splitlines() if line[:1].isdigit()],
-            dtype=np.int64,
-        )
+        lines = [line.split(",") for line in path.read_text().splitlines() if line[:1].isdigit()]
+        stamps = np.array([int(line[0]) for line in lines], dtype=np.int64)
+        table = np.array([[float(x) for x in line[1:7]] for line in lines])
     except (OSError, ValueError) as error:
         raise InputError(f"{path} can not be read as stamp, 3 angular velocities, 3 accelerations: {error}") from error
-    if table.ndim != 2 or len(table) != len(stamps) or len(table) < 2:
+    if table.ndim != 2 or table.shape[1] != 6 or len(table) < 2:
         raise InputError(f"{path} holds no table of stamp, 3 angular velocities, 3 accelerations")
     return interval_means(
         ImuBatch(stamp_ns=stamps, angular_velocity_in_imu=table[:, :3], specific_force_in_imu=table[:, 3:])

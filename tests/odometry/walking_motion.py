@@ -92,7 +92,7 @@ class Ground:
         self._focal = calibration.left.fx
         self._half = np.array([calibration.left.cx, calibration.left.cy]) / self._focal
         self._points = np.column_stack(
-            [random.uniform(-0.5, 5.0, 20000), random.uniform(-1.2, 1.2, 20000), random.uniform(-0.05, 0.05, 20000)]
+            [random.uniform(0.0, 4.0, 4000), random.uniform(-1.0, 1.0, 4000), random.uniform(-0.05, 0.05, 4000)]
         )
         self._active: set[int] = set()
 
