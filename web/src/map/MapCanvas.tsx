@@ -1,8 +1,8 @@
 /** The 2-D map: exact mission editor, and the whole picture where there is no WebGL. */
-import { type KeyboardEvent, useEffect, useId, useRef, useState } from "react";
-import { insertionIndex } from "../mission/path";
+import { useEffect, useId, useRef, useState } from "react";
 import { useDraft } from "../mission/draftStore";
-import { MAP_HELP, mapKey } from "./keys";
+import { MAP_HELP } from "./keys";
+import { addWaypoint, useMapKeys } from "./useMapKeys";
 import { listenToPointer } from "./pointer";
 import { type Point, toScreen, toWorld } from "./projection";
 import { useMapDrawing } from "./useMapDrawing";
@@ -38,41 +38,7 @@ export function MapCanvas() {
     });
   }, []);
 
-  const press = (event: KeyboardEvent) => {
-    const { draft, dispatch } = useDraft.getState();
-    const key = event.ctrlKey || event.metaKey || event.altKey ? null : mapKey(event, draft.selected !== null);
-    if (key === null) return;
-    event.preventDefault();
-    const { scale } = map.view.current;
-    const selected = draft.selected === null ? undefined : draft.waypoints[draft.selected];
-    switch (key.type) {
-      case "pan":
-        return map.pan(-key.dx * scale, key.dy * scale);
-      case "nudge":
-        if (selected === undefined || draft.selected === null) return;
-        return dispatch({
-          type: "place",
-          index: draft.selected,
-          waypoint: { x: selected.x + key.dx, y: selected.y + key.dy },
-        });
-      case "zoom":
-        return map.zoom(key.factor);
-      case "add":
-        return addWaypoint({ x: map.view.current.x, y: map.view.current.y }, event.shiftKey);
-      case "delete":
-        return draft.selected === null ? undefined : dispatch({ type: "delete", index: draft.selected });
-      case "next":
-      case "previous":
-        return dispatch({
-          type: "select",
-          index: neighbour(draft.selected, draft.waypoints.length, key.type === "next" ? 1 : -1),
-        });
-      case "deselect":
-        return dispatch({ type: "select", index: null });
-      case "centre":
-        return map.centre();
-    }
-  };
+  const press = useMapKeys(map);
 
   return (
     <div className="map" ref={box}>
@@ -95,12 +61,6 @@ export function MapCanvas() {
   );
 }
 
-function addWaypoint(waypoint: Point, insert: boolean): void {
-  const { draft, dispatch } = useDraft.getState();
-  if (insert) dispatch({ type: "insert", index: insertionIndex(draft.waypoints, waypoint), waypoint });
-  else dispatch({ type: "add", waypoint });
-}
-
 function waypointAt(screen: Point, project: (point: Point) => Point): number | null {
   const { waypoints } = useDraft.getState().draft;
   let best: number | null = null;
@@ -111,10 +71,4 @@ function waypointAt(screen: Point, project: (point: Point) => Point): number | n
     if (gap < least) [best, least] = [index, gap];
   });
   return best;
-}
-
-function neighbour(selected: number | null, length: number, step: number): number | null {
-  if (length === 0) return null;
-  if (selected === null) return step > 0 ? 0 : length - 1;
-  return (selected + step + length) % length;
 }

@@ -1,6 +1,6 @@
 /** Scale bar, axes and the keyboard's cross hair: what helps to read the map. */
 import { type View, scaleBarLength } from "./projection";
-import type { Ink } from "./drawing";
+import type { Ink } from "./strokes";
 
 type Context = CanvasRenderingContext2D;
 

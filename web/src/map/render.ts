@@ -3,18 +3,10 @@ import { terrain, history } from "../console/live";
 import type { Freshness } from "../console/freshness";
 import type { MissionState, RobotState, TruthState, Waypoint } from "../protocol/messages";
 import type { ColourScale } from "./colourScale";
-import {
-  type Ink,
-  drawGrid,
-  drawLookahead,
-  drawPath,
-  drawRobot,
-  drawTrail,
-  drawTruth,
-  drawUnknownGround,
-  drawWaypoint,
-  positionOf,
-} from "./drawing";
+import { drawGrid, drawUnknownGround } from "./ground";
+import { drawLookahead, drawPath, drawTrail, drawWaypoint } from "./missionMarks";
+import { drawRobot, drawTruth } from "./robotMark";
+import { type Ink, positionOf } from "./strokes";
 import { drawAxes, drawCrossHair, drawScaleBar } from "./furniture";
 import { type View, toScreen } from "./projection";
 import type { TilePainter } from "./tilePainter";

@@ -7,7 +7,7 @@ import { usePreferences } from "../console/preferences";
 import { latest, useConsole } from "../console/store";
 import { shownWaypoints, useDraft } from "../mission/draftStore";
 import { type ColourScale, colourScale } from "./colourScale";
-import type { Ink } from "./drawing";
+import type { Ink } from "./strokes";
 import type { View } from "./projection";
 import { renderMap } from "./render";
 import { TilePainter } from "./tilePainter";

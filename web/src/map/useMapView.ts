@@ -1,7 +1,7 @@
 /** Where the map looks: fits its element, follows the robot until it is moved by hand. */
 import { type RefObject, useEffect, useRef, useState } from "react";
 import { latest, useConsole } from "../console/store";
-import { positionOf } from "./drawing";
+import { positionOf } from "./strokes";
 import { type Point, type View, pan, zoomAt } from "./projection";
 
 const FIRST_SCALE = 90; // px/m

@@ -3,7 +3,7 @@ import { Button } from "@mantine/core";
 import { Panel } from "../components/Panel";
 import { fixed } from "../components/format";
 import { useLatest } from "../console/useLatest";
-import { positionOf } from "../map/drawing";
+import { positionOf } from "../map/strokes";
 import { sameWaypoints } from "./draft";
 import { useDraft } from "./draftStore";
 import { MissionButtons } from "./MissionButtons";

@@ -1,7 +1,7 @@
 /** The waypoints as a list: the keyboard's way, and the exact one. */
 import { latest, useConsole } from "../console/store";
 import { useLatest } from "../console/useLatest";
-import { positionOf } from "../map/drawing";
+import { positionOf } from "../map/strokes";
 import type { Waypoint } from "../protocol/messages";
 import { useDraft } from "./draftStore";
 import { WaypointRow } from "./WaypointRow";

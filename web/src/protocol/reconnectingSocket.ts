@@ -8,6 +8,9 @@ const LONGEST_DELAY = 2000; // ms
 export const REPLACED = 4000;
 export const LOGIN_NEEDED = 4001;
 
+/** As a browser reports a connection that ended without a word. */
+const SILENT = 1006;
+
 export interface SocketEvents {
   opened(): void;
   received(messages: Incoming[]): void;
@@ -52,6 +55,14 @@ export class ReconnectingSocket {
     if (this.socket?.readyState !== WebSocket.OPEN) return false;
     this.socket.send(JSON.stringify(message));
     return true;
+  }
+
+  /** Gives up a connection that has gone silent, and tries anew. */
+  abandon(): void {
+    const socket = this.socket;
+    if (socket === null) return;
+    socket.close();
+    this.retry(SILENT);
   }
 
   close(): void {

@@ -1,0 +1,98 @@
+/** What a message of the console sets going beside the store: terrain, history, draft, answers and notices. */
+import { type TileMessage } from "../map/tiles";
+import { useDraft } from "../mission/draftStore";
+import type { AdaptationReport, GaitState, MissionState, RobotState } from "../protocol/messages";
+import type { Incoming } from "../protocol/wire";
+import { settleAnswer } from "./commands";
+import { rememberOperator } from "./identity";
+import { history, terrain } from "./live";
+import { notify } from "./notices";
+import { selectRobot, send } from "./outbox";
+import { usePreferences } from "./preferences";
+import { matches } from "./receive";
+import { useConsole } from "./store";
+
+/** The robot whose terrain, history and draft are kept here. */
+let shown: string | null = null;
+
+export function react(message: Incoming, now: number): void {
+  switch (message.type) {
+    case "hello":
+      rememberOperator(message.operator);
+      restore();
+      break;
+    case "robots":
+      chooseOnlyRobot();
+      break;
+    case "selected":
+      changeRobot(message.robot);
+      deliverPendingStop();
+      break;
+    case "value":
+      if (message.robot === useConsole.getState().selected)
+        keep(message.key, message.value, now - 1000 * message.age_s);
+      break;
+    case "forget":
+      terrain.forget((key) => matches(key, message.keys));
+      if (message.keys.some((key) => key.startsWith("tele/state") || key === "*")) history.clear();
+      break;
+    case "answer":
+      settleAnswer(message);
+      break;
+    case "picked":
+      useDraft.getState().dispatch({ type: "add", waypoint: { x: message.x, y: message.y } });
+      break;
+    case "missed":
+      notify("info", `No waypoint was placed: ${message.reason}.`);
+      break;
+    case "dragged":
+      useDraft.getState().drag(message.index, { x: message.x, y: message.y }, message.done);
+      break;
+    case "error":
+      notify("error", message.reason);
+      break;
+  }
+}
+
+function keep(key: string, value: unknown, received: number): void {
+  if (key.startsWith("tele/map/tile/")) terrain.put(key, value as TileMessage, received);
+  else if (key === "tele/state") history.addState(value as RobotState);
+  else if (key === "tele/gait") history.addGait(value as GaitState);
+  else if (key === "state/mission") useDraft.getState().follow((value as MissionState).waypoints);
+  else if (key === "tele/adaptation") history.addAdaptation(value as AdaptationReport);
+}
+
+/** The same robot again, after a reconnection, keeps its draft and history; its terrain is sent anew. */
+function changeRobot(robot: string | null): void {
+  terrain.forget(() => true);
+  if (robot === shown) return;
+  shown = robot;
+  history.clear();
+  useDraft.getState().reset();
+}
+
+/** A new connection knows nothing of what this page showed before. */
+function restore(): void {
+  const { selected, hello } = useConsole.getState();
+  const { layer, cameras, view } = usePreferences.getState();
+  if (selected !== null) selectRobot(selected);
+  if (hello?.layers.includes(layer)) send({ type: "layer", name: layer });
+  send({ type: "view", ...view });
+  send({ type: "watch", cameras });
+  useDraft.getState().publish();
+}
+
+/** With one robot there is nothing to choose. */
+function chooseOnlyRobot(): void {
+  const { robots, selected } = useConsole.getState();
+  const alive = robots.filter((robot) => robot.alive);
+  if (selected === null && alive.length === 1) selectRobot(alive[0]!.id);
+}
+
+function deliverPendingStop(): void {
+  const { stopPending, selected } = useConsole.getState();
+  if (!stopPending || selected === null) return;
+  useConsole.setState({ stopPending: false });
+  send({ type: "command", id: "pending-stop", command: "stop" });
+  notify("warning", "The stop you asked for while the console was unreachable has been sent now.");
+}

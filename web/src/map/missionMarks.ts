@@ -1,0 +1,63 @@
+/** The mission on the 2-D map: the way walked, the way to go, the waypoints and the follower's target. */
+import type { Waypoint } from "../protocol/messages";
+import { type Point, type View, toScreen } from "./projection";
+import { type Context, type Ink, circle, polyline, strokeWithHalo } from "./strokes";
+
+/** Distance at which the robot turns to the next waypoint, and at which the last one is reached, m (ICRA'17 III-B). */
+const ACCEPTANCE_RADIUS = 0.5;
+const GOAL_RADIUS = 0.1;
+const WAYPOINT_PIXELS = 11;
+
+export function drawTrail(context: Context, view: View, trail: readonly Point[], ink: Ink): void {
+  polyline(context, view, trail);
+  strokeWithHalo(context, ink, ink.trail, 2);
+}
+
+/** The way still to go: from the robot (when known) through the waypoints. */
+export function drawPath(
+  context: Context,
+  view: View,
+  robot: Point | null,
+  waypoints: readonly Waypoint[],
+  ink: Ink,
+): void {
+  if (waypoints.length === 0) return;
+  context.setLineDash([7, 5]);
+  polyline(context, view, robot === null ? waypoints : [robot, ...waypoints]);
+  strokeWithHalo(context, ink, ink.path, 2);
+  context.setLineDash([]);
+}
+
+export interface WaypointMark {
+  waypoint: Waypoint;
+  number: number;
+  selected: boolean;
+  reached: boolean;
+  last: boolean;
+}
+
+export function drawWaypoint(context: Context, view: View, mark: WaypointMark, ink: Ink): void {
+  const { x, y } = toScreen(view, mark.waypoint);
+  circle(context, x, y, (mark.last ? GOAL_RADIUS : ACCEPTANCE_RADIUS) * view.scale);
+  context.setLineDash([3, 3]);
+  strokeWithHalo(context, ink, ink.path, 1);
+  context.setLineDash([]);
+  circle(context, x, y, mark.selected ? WAYPOINT_PIXELS + 3 : WAYPOINT_PIXELS);
+  context.fillStyle = mark.reached ? ink.halo : ink.path;
+  context.fill();
+  strokeWithHalo(context, ink, mark.selected ? ink.text : ink.path, mark.selected ? 3 : 1.5);
+  context.fillStyle = mark.reached ? ink.path : ink.halo;
+  context.font = "600 12px system-ui, sans-serif";
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  context.fillText(mark.reached ? "✓" : String(mark.number), x, y + 0.5);
+}
+
+export function drawLookahead(context: Context, view: View, robot: Point, lookahead: Point, ink: Ink): void {
+  polyline(context, view, [robot, lookahead]);
+  strokeWithHalo(context, ink, ink.robot, 1.5);
+  const at = toScreen(view, lookahead);
+  circle(context, at.x, at.y, 4);
+  context.fillStyle = ink.robot;
+  context.fill();
+}
