@@ -9,6 +9,7 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from sim_agent.rendering.blocks import Blocks
 from sim_agent.rendering.eye import Eye
 from sim_agent.rendering.relief import Relief
 from sim_agent.rendering.robot_parts import RobotParts, unit_shapes
@@ -26,7 +27,6 @@ SKY_COLOUR = (0.72, 0.80, 0.90)
 # Slim systems have the libraries but not the unversioned names that point to them.
 EGL: dict[str, Any] = {"backend": "egl", "libgl": "libGL.so.1", "libegl": "libEGL.so.1"}
 TINTS = 8  # as many as the shaders declare
-VERTEX_FORMAT = ("3f 3f 2f 1f", "position", "normal", "texture_position", "layer")
 
 
 def open_context() -> moderngl.Context:
@@ -56,12 +56,7 @@ class Graphics:
         self._ground = self._program(GROUND_VERTEX, materials)
         self._robot = self._program(ROBOT_VERTEX, materials)
         self._robot["robot_layer"] = float(layers[ROBOT.name])
-        surface = static_surface(world, layers)
-        self._static = self.context.vertex_array(
-            self._ground,
-            [(self.context.buffer(surface.vertices.tobytes()), *VERTEX_FORMAT)],
-            index_buffer=self.context.buffer(surface.indices.tobytes()),
-        )
+        self._blocks = Blocks(self.context, self._ground, static_surface(world, layers))
         self._reliefs = [
             Relief(self.context, self._ground, field, layers[field.material]) for field in world.heightfields
         ]
@@ -89,7 +84,7 @@ class Graphics:
             vertex_array.render(instances=count)
         for relief in self._reliefs:
             relief.draw(eye, world_from_optical)
-        self._static.render()
+        self._blocks.draw(eye, world_from_optical)
 
     def close(self) -> None:
         self.context.release()

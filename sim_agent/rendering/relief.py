@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim_agent.rendering.eye import Eye
-from sim_agent.rendering.surfaces import grid_indices, heightfield_vertices
+from sim_agent.rendering.surfaces import VERTEX_FORMAT, grid_indices, heightfield_vertices
 from sim_agent.worlds import Heightfield
 from weaver_shared.transforms import Pose
 
@@ -35,7 +35,7 @@ class Relief:
             self._arrays.append(
                 context.vertex_array(
                     program,
-                    [(buffer, "3f 3f 2f 1f", "position", "normal", "texture_position", "layer")],
+                    [(buffer, *VERTEX_FORMAT)],
                     index_buffer=context.buffer(np.concatenate(blocks).tobytes()),
                 )
             )
@@ -52,8 +52,10 @@ class Relief:
     def draw(self, eye: Eye, world_from_optical: Pose) -> None:
         seen = np.flatnonzero(eye.sees(world_from_optical, self._centres, self._radius))
         away = self._centres[seen] - world_from_optical.position
-        level = np.searchsorted(REACH, np.hypot(away[:, 0], away[:, 1]))
-        for tile, which in zip(seen, level, strict=True):
+        distance = np.hypot(away[:, 0], away[:, 1])
+        nearest_first = np.argsort(distance, kind="stable")
+        level = np.searchsorted(REACH, distance)
+        for tile, which in zip(seen[nearest_first], level[nearest_first], strict=True):
             first, count = self._ranges[which]
             self._arrays[which].render(vertices=int(count[tile]), first=int(first[tile]))
 

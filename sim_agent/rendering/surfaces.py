@@ -14,6 +14,8 @@ Floats = NDArray[np.float32]
 
 PLANE_EXTENT = 60.0  # m, beyond it haze has swallowed the ground
 
+VERTEX_FORMAT = ("3f 3f 2f 1f", "position", "normal", "texture_position", "layer")
+
 # Faces of the unit box: axis, sign. The underside is never seen.
 _FACES = ((2, 1.0), (0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0))
 
@@ -33,8 +35,6 @@ def static_surface(world: World, layers: dict[str, int]) -> Surface:
     count = 0
     solids: tuple[Plane | Box, ...] = (*world.boxes, *world.planes)
     quads = [quad for solid in solids for quad in _quads(solid)]
-    # Small faces come first, wide ground last: most of it is then hidden, and hidden pixels cost little.
-    quads.sort(key=lambda quad: float(np.linalg.norm(np.ptp(quad[0], axis=0))))
     visible = _visible(quads, world)
     for corners, normal, texture, material in (quad for quad, shows in zip(quads, visible, strict=True) if shows):
         block = np.empty((4, 9), dtype=np.float32)
