@@ -217,6 +217,14 @@ def _add_pages(app: FastAPI, hub: Hub, folder: Path | None) -> None:
         headers = {"Content-Encoding": "gzip", "Vary": "Accept-Encoding", "Cache-Control": "no-cache"}
         return Response(scene_page(), media_type="text/html", headers=headers)
 
+    @app.post("/viser/{page}/thrift")
+    async def thrift(page: str) -> Response:
+        """The browser of this page draws without a graphics card."""
+        view = hub.scene(page)
+        if view is not None:
+            view.thrifty = True
+        return Response(status_code=204)
+
     @app.get("/{path:path}")
     async def built(path: str) -> Response:
         root = folder or built_page.page_folder()

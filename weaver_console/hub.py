@@ -22,6 +22,9 @@ CHECK_PERIOD = 0.1
 SCENE_PERIOD = 0.04
 """25 Hz for the robot in the 3-D views."""
 
+THRIFT = 3
+"""Only every third picture for a browser without a graphics card."""
+
 SCENE_KEPT = 10.0
 """Seconds that the 3-D view of a page outlives its connection, so that a short break does not redraw it."""
 
@@ -122,10 +125,12 @@ class Hub:
     def _draw(self) -> None:
         """Keep every watched scene up to date; a fault in one is logged once and ends neither it nor the others."""
         faulty: set[str] = set()
+        tick = 0
         while not self._stopping.wait(SCENE_PERIOD):
+            tick += 1
             for page, scene in list(self._scenes.items()):
                 session = self._sessions.get(page)
-                if session is None or not scene.watched:
+                if session is None or not scene.watched or (scene.thrifty and tick % THRIFT):
                     continue
                 try:
                     scene.update(self.link.robot(session.robot) if session.robot is not None else None)

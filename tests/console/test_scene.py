@@ -18,7 +18,8 @@ from wire_robot import STANDING, ground_height
 
 from weaver_console.scene.motion_figure import _closed_hull
 from weaver_console.scene.page_scene import PageScene
-from weaver_console.scene.robot_figure import _segments, _turn_z_to, octasphere, prism
+from weaver_console.scene.robot_figure import _segments, _turn_z_to
+from weaver_console.scene.shapes import octasphere, prism
 from weaver_console.scene.terrain_figure import TILES_AN_UPDATE, MeshStore
 from weaver_console.scene_page import scene_page
 from weaver_shared import topics
@@ -115,12 +116,13 @@ def test_the_draft_is_drawn_until_the_robot_has_it(field: Field, view: View):
     draft = (Waypoint(x=1.0, y=0.0), Waypoint(x=1.0, y=1.0))
     view.scene.propose(draft, 1)
     view.scene.update(record)
-    assert {name.split("/")[4] for name in view.names("/world/mission/draft/")} == {"0", "1", "path"}
+    assert np.allclose(view.node("/world/mission/draft/balls").batched_positions[:, :2], [[1.0, 0.0], [1.0, 1.0]])
+    assert "/world/mission/draft/label 1" in view.names("/world/mission/draft/")
     robot.waypoints = draft
     field.forward(robot, 0.2)
     view.scene.update(record)
     assert not view.names("/world/mission/draft/")
-    assert "/world/mission/mission/1/circle" in view.names("/world/mission/")
+    assert "/world/mission/mission/circles" in view.names("/world/mission/")
 
 
 def test_a_restarted_robot_leaves_nothing_of_its_old_map(field: Field, view: View):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import count
 
@@ -122,13 +123,14 @@ class Ground:
     def height(self, x: float, y: float) -> float:
         """Height at a place in m, NaN where unknown."""
         tile = next(iter(self.tiles.values()), None)
-        if tile is None or not (np.isfinite(x) and np.isfinite(y)):
+        if tile is None or not (math.isfinite(x) and math.isfinite(y)):
             return float("nan")
-        row, column = int(np.floor(x / tile.cell)), int(np.floor(y / tile.cell))
+        row, column = math.floor(x / tile.cell), math.floor(y / tile.cell)
         place = self.tiles.get((row // tile.size, column // tile.size))
         if place is None or place.cell != tile.cell or place.size != tile.size:
             return float("nan")
-        return float(elevation_of(place)[row % tile.size, column % tile.size])
+        height_mm = int(place.elevation_mm[row % tile.size, column % tile.size])
+        return float("nan") if height_mm == UNKNOWN_MM else height_mm * 1e-3
 
     def range(self) -> tuple[float, float] | None:
         """Lowest and highest known height in m."""

@@ -11,18 +11,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weaver_console.scene.ground import Ground
+from weaver_console.scene.lines import Lines, chained
+from weaver_console.scene.shapes import octasphere, prism, upright
 from weaver_shared.messages import Waypoint
 
 Array = NDArray[np.float64]
+Place = tuple[float, float]
 
 LIFT = 0.03
 """Lines float this far above the ground, m, so that it does not swallow them."""
+
+POLE = (0.014, 0.014, 0.30)
+TOP = np.array([0.0, 0.0, POLE[2]])
+BALL_RADIUS = 0.035
+STEP = 0.1
+LEG_STEP = 0.05
+CIRCLE = np.stack([np.cos(np.linspace(0.0, 2.0 * np.pi, 33)), np.sin(np.linspace(0.0, 2.0 * np.pi, 33))], axis=1)
 
 _SENT = (64, 156, 255)
 _REACHED = (110, 122, 138)
 _DRAFT = (255, 176, 32)
 _SELECTED = (255, 255, 255)
-_STEP = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,69 +52,104 @@ class Course:
     def draft(waypoints: Sequence[Waypoint], selected: int | None) -> Course:
         return Course(kind="draft", waypoints=tuple(waypoints), colour=_DRAFT, selected=selected)
 
+    @property
+    def places(self) -> list[Place]:
+        return [(waypoint.x, waypoint.y) for waypoint in self.waypoints]
+
+    @property
+    def shades(self) -> NDArray[np.uint8]:
+        """A colour for each waypoint, (n, 3)."""
+        chosen = [_SELECTED if n == self.selected else self.colour for n in range(len(self.waypoints))]
+        return np.array([_REACHED if n < self.reached else c for n, c in enumerate(chosen)], dtype=np.uint8)
+
 
 class MissionFigure:
+    """Draws a course anew only when it or the ground under its waypoints changes; the leg ahead follows the robot."""
+
     def __init__(self, scene: Any, name: str, *, acceptance_radius: float) -> None:
         self._scene = scene
         self._name = name
         self._radius = acceptance_radius
-        self._nodes: list[Any] = []
-        self._shown: object = None
+        self._drawn: dict[str, tuple[object, Any]] = {}
+        self._leg = Lines(scene, f"{name}/leg", _SENT, thickness=0.012)
+        self._leg_shown: object = None
 
     def update(self, ground: Ground, robot_position: Array | None, mission: Course, draft: Course) -> None:
         """Draw both, the draft only where it differs; `robot_position` (3,), if known, begins the path."""
-        courses = [mission] if draft.waypoints == mission.waypoints else [mission, draft]
-        start = None if robot_position is None else tuple(np.round(robot_position[:2], 1).tolist())
-        wanted = (courses, start, ground.version // 50)
-        if wanted == self._shown:
+        if draft.waypoints == mission.waypoints:
+            draft = Course.draft((), None)
+        for course in (mission, draft):
+            self._update(ground, course)
+        self._update_leg(ground, robot_position, draft if draft.waypoints else mission)
+
+    def _update(self, ground: Ground, course: Course) -> None:
+        heights = [_height(ground, *place) for place in course.places]
+        wanted = (course, [round(height / 0.02) for height in heights])
+        shown, node = self._drawn.get(course.kind, (None, None))
+        if wanted == shown:
             return
-        self._shown = wanted
-        for node in self._nodes:
+        if node is not None:
             node.remove()
-        self._nodes = []
-        for course in courses:
-            self._draw(ground, start, course)
+        self._drawn[course.kind] = (wanted, self._draw(ground, course, heights) if course.waypoints else None)
 
-    def _draw(self, ground: Ground, start: tuple[float, ...] | None, course: Course) -> None:
-        places = [(w.x, w.y) for w in course.waypoints]
-        self._nodes.append(self._scene.add_frame(f"{self._name}/{course.kind}", show_axes=False))
-        for number, place in enumerate(places):
-            chosen = _SELECTED if number == course.selected else course.colour
-            shade = _REACHED if number < course.reached else chosen
-            self._mark(f"{self._name}/{course.kind}/{number}", ground, place, number + 1, shade)
-        ahead = places[course.reached :]
-        path = [start, *ahead] if start is not None and ahead else ahead
-        if len(path) > 1:
-            self._line(f"{self._name}/{course.kind}/path", _draped(ground, path), course.colour)
+    def _draw(self, ground: Ground, course: Course, heights: list[float]) -> Any:
+        name = f"{self._name}/{course.kind}"
+        root = self._scene.add_frame(name, show_axes=False)
+        feet = np.column_stack([np.array(course.places), heights])
+        self._add_marks(name, feet, course.shades)
+        circles = [chained(self._circle(ground, foot)) for foot in feet]
+        self._add_lines(f"{name}/circles", np.concatenate(circles), np.repeat(course.shades, len(CIRCLE) - 1, axis=0))
+        ahead = course.places[course.reached :]
+        if len(ahead) > 1:
+            path = chained(_draped(ground, ahead))
+            self._add_lines(f"{name}/path", path, np.tile(np.array(course.colour, dtype=np.uint8), (len(path), 1)))
+        return root
 
-    def _mark(
-        self, name: str, ground: Ground, place: tuple[float, float], number: int, colour: tuple[int, int, int]
-    ) -> None:
-        height = _height(ground, *place)
-        still = {"cast_shadow": False, "receive_shadow": False}
-        self._scene.add_cylinder(f"{name}/pole", 0.008, 0.30, color=colour,
-                                        position=(*place, height + 0.15), **still)  # fmt: skip
-        self._scene.add_icosphere(f"{name}/ball", 0.035, color=colour, subdivisions=2,
-                                         position=(*place, height + 0.31), **still)  # fmt: skip
-        self._scene.add_label(f"{name}/label", str(number), position=(*place, height + 0.38),
-                                      anchor="bottom-center")  # fmt: skip
-        angles = np.linspace(0.0, 2.0 * np.pi, 33)
-        ring = [(place[0] + self._radius * c, place[1] + self._radius * s)
-                for c, s in zip(np.cos(angles), np.sin(angles), strict=True)]  # fmt: skip
-        points = np.array([[x, y, _height(ground, x, y, height) + LIFT] for x, y in ring])
-        self._line(f"{name}/circle", points, colour)
+    def _add_marks(self, name: str, feet: Array, shades: NDArray[np.uint8]) -> None:
+        count, plain = len(feet), {"lod": "off", "cast_shadow": False, "receive_shadow": False}
+        self._scene.add_batched_meshes_simple(
+            f"{name}/poles", *prism(), upright(count), feet + 0.5 * TOP,
+            batched_scales=np.tile(POLE, (count, 1)), batched_colors=shades, **plain,
+        )  # fmt: skip
+        self._scene.add_batched_meshes_simple(
+            f"{name}/balls", *octasphere(), upright(count), feet + TOP,
+            batched_scales=np.full(count, BALL_RADIUS), batched_colors=shades, **plain,
+        )  # fmt: skip
+        for number, foot in enumerate(feet):
+            self._scene.add_label(
+                f"{name}/label {number}", str(number + 1), position=foot + 1.25 * TOP, anchor="bottom-center"
+            )
 
-    def _line(self, name: str, points: Array, colour: tuple[int, int, int]) -> None:
-        segments = np.stack([points[:-1], points[1:]], axis=1).astype(np.float32)
-        self._scene.add_line_segments(name, segments, colour, thickness=0.012)
+    def _add_lines(self, name: str, segments: Array, colours: NDArray[np.uint8]) -> None:
+        both_ends = np.repeat(colours[:, None], 2, axis=1)
+        self._scene.add_line_segments(name, segments.astype(np.float32), both_ends, thickness=0.012)
+
+    def _circle(self, ground: Ground, foot: Array) -> Array:
+        places = foot[:2] + self._radius * CIRCLE
+        return np.array([[x, y, _height(ground, x, y, foot[2]) + LIFT] for x, y in places.tolist()])
+
+    def _update_leg(self, ground: Ground, robot_position: Array | None, course: Course) -> None:
+        """The line from the robot to the waypoint it goes to next, anew every few centimetres of its way."""
+        ahead = course.places[course.reached :]
+        if robot_position is None or not ahead:
+            wanted = None
+        else:
+            wanted = (tuple(np.round(robot_position[:2] / LEG_STEP).tolist()), ahead[0], course.kind)
+        if wanted == self._leg_shown:
+            return
+        self._leg_shown = wanted
+        start = () if robot_position is None else (float(robot_position[0]), float(robot_position[1]))
+        points = _draped(ground, [start, ahead[0]]) if wanted is not None and len(start) == 2 else np.zeros((0, 3))
+        self._leg.colour(course.colour)
+        self._leg.chain(points)
 
 
-def _draped(ground: Ground, places: Sequence[tuple[float, ...]]) -> Array:
+def _draped(ground: Ground, places: Sequence[Place]) -> Array:
     """The path with its height over the ground every few centimetres, (n, 3)."""
     corners = np.array(places)
     points = []
     for begin, end in pairwise(corners):
-        count = int(np.clip(np.linalg.norm(end - begin) / _STEP, 1, 200))
+        count = int(np.clip(np.linalg.norm(end - begin) / STEP, 1, 200))
         points += [begin + (end - begin) * share for share in np.arange(count) / count]
     points.append(corners[-1])
     heights: list[float] = []

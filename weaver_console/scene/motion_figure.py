@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from weaver_console.scene.lines import NONE, Lines
 from weaver_shared.messages import MissionState, OdometryEstimate, RobotState, TruthState
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import Pose
@@ -29,27 +30,6 @@ _COVARIANCE = (190, 140, 255)
 _TRUTH = (255, 255, 255)
 
 
-class Lines:
-    """Line segments that may be none: a node is hidden while it has nothing to show."""
-
-    def __init__(self, scene: Any, name: str, colour: tuple[int, int, int], thickness: float = 0.008) -> None:
-        self._node = scene.add_line_segments(name, np.zeros((1, 2, 3), np.float32), colour, thickness=thickness)
-        self._node.visible = False
-
-    def show(self, segments: Array) -> None:
-        """Segments (n, 2, 3)."""
-        if len(segments):
-            self._node.points = segments.astype(np.float32)
-        self._node.visible = len(segments) > 0
-
-    def colour(self, colour: tuple[int, int, int]) -> None:
-        self._node.colors = np.array(colour, dtype=np.uint8)
-
-    def chain(self, points: Array) -> None:
-        """One line through points (n, 3)."""
-        self.show(np.stack([points[:-1], points[1:]], axis=1) if len(points) > 1 else np.zeros((0, 2, 3)))
-
-
 class MotionFigure:
     def __init__(self, scene: Any, name: str, robot: RobotDescription) -> None:
         self._robot = robot
@@ -62,6 +42,7 @@ class MotionFigure:
         box = Lines(scene, f"{name}/truth/outline", _TRUTH, thickness=0.006)
         box.show(_box_edges(robot))
         self._trail: list[Array] = []
+        self._trail_shown = True
         self._stable: bool | None = None
 
     def update(self, state: RobotState) -> None:
@@ -72,11 +53,10 @@ class MotionFigure:
         self._colour_support(state.stability_margin > 0.0)
         force = np.clip(state.foot_force, 0.0, 200.0)[:, None] * np.array([0.0, 0.0, FORCE_SCALE])
         self._forces.show(np.stack([feet, feet + force], axis=1)[state.foot_contact & (state.foot_force > 1.0)])
-        self._extend_trail(state.position_in_world)
 
     def lookahead(self, state: RobotState, mission: MissionState | None) -> None:
         if mission is None or not np.isfinite(mission.lookahead_in_world).all():
-            self._lookahead.show(np.zeros((0, 2, 3)))
+            self._lookahead.show(NONE)
             return
         begin = state.position_in_world
         self._lookahead.chain(np.array([begin, [*mission.lookahead_in_world, begin[2]]]))
@@ -85,7 +65,7 @@ class MotionFigure:
         """Three-sigma ellipse of the horizontal position."""
         matrix = odometry.covariance[3:5, 3:5]
         if not np.isfinite(matrix).all():
-            self._covariance.show(np.zeros((0, 2, 3)))
+            self._covariance.show(NONE)
             return
         values, vectors = np.linalg.eigh(matrix)
         radii = SIGMAS * np.sqrt(np.clip(values, 0.0, 4.0))
@@ -99,13 +79,16 @@ class MotionFigure:
             self._truth.position, self._truth.wxyz = truth.position_in_world, truth.wxyz
 
     def show_trail(self, wanted: bool) -> None:
+        self._trail_shown = wanted
         self._trail_line.chain(np.array(self._trail) if wanted and self._trail else np.zeros((0, 3)))
 
-    def _extend_trail(self, position: Array) -> None:
+    def leave_trail(self, state: RobotState) -> None:
+        position = state.position_in_world
         if self._trail and float(np.linalg.norm(position - self._trail[-1])) < TRAIL_STEP:
             return
         self._trail = [*self._trail[-LONGEST_TRAIL:], np.array(position)]
-        self.show_trail(True)
+        if self._trail_shown:
+            self.show_trail(True)
 
     def _colour_support(self, stable: bool) -> None:
         if stable is not self._stable:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from weaver_console.scene.shapes import octasphere, prism, upright
 from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import joint_frames_in_body
 
@@ -44,11 +45,11 @@ class RobotFigure:
         ball, ball_faces = octasphere()
         joints = frames[:, :-1, :3, 3].reshape(-1, 3)
         self._joints = scene.add_batched_meshes_simple(
-            f"{name}/joints", ball, ball_faces, _upright(len(joints)), joints,
+            f"{name}/joints", ball, ball_faces, upright(len(joints)), joints,
             batched_scales=np.full(len(joints), JOINT_RADIUS), batched_colors=_JOINT_COLOUR, **shape,
         )  # fmt: skip
         self._feet = scene.add_batched_meshes_simple(
-            f"{name}/feet", ball, ball_faces, _upright(robot.leg_count), frames[:, -1, :3, 3],
+            f"{name}/feet", ball, ball_faces, upright(robot.leg_count), frames[:, -1, :3, 3],
             batched_scales=np.full(robot.leg_count, 1.25 * robot.foot_radius), batched_colors=_SWING_COLOUR, **shape,
         )  # fmt: skip
         self._contact: NDArray[np.bool_] | None = None
@@ -107,49 +108,3 @@ def _turn_z_to(direction: Array) -> Array:
     opposite = norm[:, 0] < 1e-6
     wxyz[opposite], norm[opposite] = (0.0, 1.0, 0.0, 0.0), 1.0
     return np.asarray(wxyz / norm)
-
-
-def _upright(count: int) -> Array:
-    return np.tile([1.0, 0.0, 0.0, 0.0], (count, 1))
-
-
-def prism(sides: int = 6) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
-    """Vertices and faces of a prism of width and height 1 about the origin, axis z."""
-    angles = 2 * np.pi * np.arange(sides) / sides
-    ring = 0.5 * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    bottom, top = (np.column_stack([ring, np.full(sides, z)]) for z in (-0.5, 0.5))
-    vertices = np.vstack([bottom, top, [[0, 0, -0.5], [0, 0, 0.5]]])
-    faces = []
-    for k in range(sides):
-        n = (k + 1) % sides
-        faces += [
-            [k, n, sides + n],
-            [k, sides + n, sides + k],
-            [2 * sides, n, k],
-            [2 * sides + 1, sides + k, sides + n],
-        ]
-    return vertices.astype(np.float32), np.array(faces, dtype=np.uint32)
-
-
-def octasphere(subdivisions: int = 2) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
-    """Vertices and faces of a unit sphere, from an octahedron split into four `subdivisions` times."""
-    vertices = [np.array(v, dtype=np.float64) for v in
-                ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))]  # fmt: skip
-    faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
-    for _ in range(subdivisions):
-        middle: dict[tuple[int, int], int] = {}
-        split = []
-        for a, b, c in faces:
-            ab, bc, ca = (_middle(vertices, middle, p, q) for p, q in ((a, b), (b, c), (c, a)))
-            split += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
-        faces = split
-    return np.array(vertices, dtype=np.float32), np.array(faces, dtype=np.uint32)
-
-
-def _middle(vertices: list[Array], known: dict[tuple[int, int], int], a: int, b: int) -> int:
-    edge = (min(a, b), max(a, b))
-    if edge not in known:
-        known[edge] = len(vertices)
-        point = vertices[a] + vertices[b]
-        vertices.append(point / np.linalg.norm(point))
-    return known[edge]

@@ -1,0 +1,35 @@
+"""Line segments in the scene that may be none."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+NONE = np.zeros((0, 2, 3))
+
+
+class Lines:
+    """One node for as long as the figure lives; hidden while it has nothing to show."""
+
+    def __init__(self, scene: Any, name: str, colour: tuple[int, int, int], thickness: float = 0.008) -> None:
+        self._node = scene.add_line_segments(name, np.zeros((1, 2, 3), np.float32), colour, thickness=thickness)
+        self._node.visible = False
+
+    def show(self, segments: Array) -> None:
+        """Segments (n, 2, 3)."""
+        if len(segments):
+            self._node.points = segments.astype(np.float32)
+        self._node.visible = len(segments) > 0
+
+    def chain(self, points: Array) -> None:
+        """One line through points (n, 3)."""
+        self.show(chained(points))
+
+    def colour(self, colour: tuple[int, int, int]) -> None:
+        self._node.colors = np.array(colour, dtype=np.uint8)
+
+
+def chained(points: Array) -> Array:
+    """Segments (n - 1, 2, 3) of the line through points (n, 3)."""
+    return np.stack([points[:-1], points[1:]], axis=1) if len(points) > 1 else NONE
