@@ -73,7 +73,7 @@ def test_two_runs_are_the_same_to_the_last_bit_and_another_seed_is_not(robot: Ro
     def digest(seed: int) -> str:
         body = SimulatedBody(robot, make_world("testbed", 1), seed)
         found = hashlib.sha256()
-        for tick in range(150):
+        for tick in range(90):
             body.wait_next()
             sensed = body.read()
             for values in (
