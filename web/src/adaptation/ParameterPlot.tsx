@@ -42,7 +42,7 @@ export function ParameterPlot({ parameter }: { parameter: Parameter }) {
       <div ref={box} role="img" aria-label={`${parameter.label} over the last minute`} />
       <figcaption>
         <span className="line line-applied" aria-hidden /> current <span className="line line-desired" aria-hidden />{" "}
-        desired, 60 s
+        desired
       </figcaption>
     </figure>
   );

@@ -15,12 +15,13 @@ const FLUSH_PERIOD = 66; // ms between two updates of the panels
 const TICK_PERIOD = 250;
 const RETAIN_PERIOD = 500;
 const PING_PERIOD = 1000;
-/** Without anything heard for so long, not even an answer to a ping, the connection is given up: a dead network says nothing. */
-const PATIENCE = 5000;
+/** Pings without anything heard after which the connection is given up: a dead network says nothing.
+ *  NOTE: counted, not timed, since a page that was itself busy finds the answers waiting. */
+const UNANSWERED_PINGS = 5;
 
 const page = newPageId();
 let waiting: Incoming[] = [];
-let heard = 0;
+let unansweredPings = 0;
 let flushTimer: ReturnType<typeof setTimeout> | undefined;
 
 const socket = new ReconnectingSocket(() => socketAddress(page), { opened, received, lost });
@@ -51,12 +52,12 @@ function tick(): void {
 }
 
 function ping(): void {
-  const now = performance.now();
-  if (send({ type: "ping", t: now }) && now - heard > PATIENCE) socket.abandon();
+  if (!send({ type: "ping", t: performance.now() })) return;
+  if (++unansweredPings > UNANSWERED_PINGS) socket.abandon();
 }
 
 function opened(): void {
-  heard = performance.now();
+  unansweredPings = 0;
   useConsole.setState({ connection: "open", lostAt: null });
   send({ type: "ping", t: performance.now() });
 }
@@ -70,7 +71,7 @@ function lost(code: number): void {
 
 /** Values wait for the next flush; anything else is shown at once. */
 function received(messages: Incoming[]): void {
-  heard = performance.now();
+  unansweredPings = 0;
   waiting.push(...messages);
   if (messages.some((message) => message.type !== "value")) flush();
   else flushTimer ??= setTimeout(flush, FLUSH_PERIOD);
