@@ -12,9 +12,13 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from weaver_shared.errors import ConfigurationError
+
 logger = logging.getLogger(__name__)
 
 PR_SET_PDEATHSIG = 1
+REFUSED = 2
+"""Exit code of a command that was given something it can not use."""
 STABLE_AFTER = 10.0
 """A process that ran this many seconds is started again at once; one that died sooner waits longer each time."""
 
@@ -26,6 +30,7 @@ class Child:
     nice: int = 0
     process: subprocess.Popen[bytes] | None = None
     started: float = 0.0
+    starts: int = 0
     failures: int = 0
     next_start: float = field(default=0.0)
 
@@ -49,11 +54,16 @@ class Supervisor:
         return {child.name: child.process.pid for child in self._children if child.process is not None}
 
     def watch(self) -> None:
-        """Notice ended children and start them again when their time has come."""
+        """Notice ended children and start them again when their time has come.
+
+        Raises ConfigurationError when one refuses its settings at its first start: it would refuse them for ever.
+        """
         now = time.monotonic()
         for child in self._children:
             if child.process is not None and (code := child.process.poll()) is not None:
                 child.process = None
+                if code == REFUSED and child.starts == 1:
+                    raise ConfigurationError(f"{child.name} can not start with these settings")
                 child.failures = 0 if now - child.started > STABLE_AFTER else child.failures + 1
                 pause = 0.0 if child.failures == 0 else min(0.5 * 2**child.failures, 10.0)
                 child.next_start = now + pause
@@ -85,6 +95,7 @@ class Supervisor:
 
         child.process = subprocess.Popen(child.command, preexec_fn=prepare, stdin=subprocess.DEVNULL)  # noqa: PLW1509
         child.started = time.monotonic()
+        child.starts += 1
 
 
 def _die_with_parent(parent: int) -> None:

@@ -85,8 +85,12 @@ def _require_free(port: int) -> None:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             probe.bind((HOST, port))
+        except OverflowError as error:
+            raise ConfigurationError(f"port {port} is not a port; use 1 to 65535") from error
         except OSError as error:
-            raise ResourceError(f"port {port} is in use; choose another with --port") from error
+            raise ResourceError(
+                f"port {port} can not be used ({error.strerror}); choose another with --port"
+            ) from error
 
 
 def _port_or_free(port: int) -> int:
