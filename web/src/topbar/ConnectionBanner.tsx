@@ -6,7 +6,9 @@ import { useConsole } from "../console/store";
 
 export function ConnectionBanner() {
   const connection = useConsole((state) => state.connection);
-  const age = useConsole((state) => (state.lostAt === null ? 0 : Math.max(0, Math.round((state.now - state.lostAt) / 1000))));
+  const age = useConsole((state) =>
+    state.lostAt === null ? 0 : Math.max(0, Math.round((state.now - state.lostAt) / 1000)),
+  );
   const stopPending = useConsole((state) => state.stopPending);
   switch (connection) {
     case "open":
