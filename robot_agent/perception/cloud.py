@@ -20,8 +20,12 @@ SAMPLE = 6_000  # points that judge a hypothesis
 REFINING = 20_000  # points of the final fit
 INLIER = 0.01  # m per metre of distance and at least: how thick a plane may look
 NEAR_PLANE = 0.03  # m about the first plane that its refinement looks at
-STEEPEST_VIEW = np.deg2rad(75.0)  # the camera looks down on ground by less, or it looks at a wall
-STEEPEST_GROUND = np.deg2rad(45.0)  # in a cloud whose z axis points up
+GROUND_DIRECTIONS: dict[CloudFrame, tuple[tuple[tuple[float, float, float], float], ...]] = {
+    # A camera looks down on ground by less than 75 degrees, or at a wall; only then is ground sought right below it.
+    "optical": (((0.0, -1.0, 0.0), np.deg2rad(75.0)), ((0.0, 0.0, -1.0), np.deg2rad(30.0))),
+    "z up": (((0.0, 0.0, 1.0), np.deg2rad(45.0)),),
+}
+"""Where a ground's normal may point to, as a direction and the largest angle from it, in the order tried."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,9 +54,12 @@ def level(points: Array, *, seed: int = 0) -> LevelledCloud:
     frame = frame_of(points)
     generator = np.random.default_rng(seed)
     sample = points if len(points) <= SAMPLE else points[generator.choice(len(points), SAMPLE, replace=False)]
-    up_guess = np.array([0.0, -1.0, 0.0]) if frame == "optical" else np.array([0.0, 0.0, 1.0])
-    steepest = STEEPEST_VIEW if frame == "optical" else STEEPEST_GROUND
-    normal, offset = _largest_plane(sample, up_guess, float(np.cos(steepest)), generator)
+    found = None
+    for up_guess, steepest in GROUND_DIRECTIONS[frame]:
+        found = found or _largest_plane(sample, np.array(up_guess), float(np.cos(steepest)), generator)
+    if found is None:
+        raise InputError("the cloud has no plane that could be ground: none holds 5 % of its points")
+    normal, offset = found
     for _ in range(3):
         level_from_input = _levelling(normal, offset, frame)
         levelled = level_from_input.transform(points)
@@ -106,10 +113,14 @@ def cell_for(levelled: Array, smallest: float = 0.01, points_per_cell: float = 4
 
 def _largest_plane(
     sample: Array, up_guess: Array, smallest_cosine: float, generator: np.random.Generator
-) -> tuple[Array, float]:
-    """Unit normal and offset (normal . point) of the plane with the most points near it, tilted less than given."""
+) -> tuple[Array, float] | None:
+    """Unit normal and offset (normal . point) of the plane with the most points near it, tilted less than given.
+
+    None if no such plane holds 5 % of the points.
+    """
     tolerance = np.maximum(INLIER, INLIER * np.linalg.norm(sample, axis=1))
-    best, best_count = None, 0
+    best: tuple[Array, float] | None = None
+    best_count = 0
     for _ in range(HYPOTHESES):
         a, b, c = sample[generator.choice(len(sample), 3, replace=False)]
         normal = np.cross(b - a, c - a)
@@ -122,14 +133,14 @@ def _largest_plane(
         count = int((np.abs(sample @ normal - normal @ a) < tolerance).sum())
         if count > best_count:
             best, best_count = (normal, float(normal @ a)), count
-    if best is None or best_count < max(10, 0.05 * len(sample)):
-        raise InputError("the cloud has no plane that could be ground: none holds 5 % of its points")
-    return best
+    return best if best_count >= max(10, 0.05 * len(sample)) else None
 
 
 def _levelling(normal: Array, offset: float, frame: CloudFrame) -> Pose:
     """Pose level_from_input of a plane: z along its normal, x along the view (optical) or the input's x."""
     forward = np.array([0.0, 0.0, 1.0]) if frame == "optical" else np.array([1.0, 0.0, 0.0])
+    if abs(forward @ normal) > 0.99:
+        forward = np.array([0.0, -1.0, 0.0])  # a camera that looks straight down
     x = forward - (forward @ normal) * normal
     x /= np.linalg.norm(x)
     rotation = np.stack([x, np.cross(normal, x), normal])

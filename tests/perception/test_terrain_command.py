@@ -73,6 +73,15 @@ def test_the_label_does_not_enter_the_plane(table, tmp_path, capsys):
     assert none["tilt_reference"] == "camera up (-y)"
 
 
+def test_a_camera_looking_straight_down_sees_the_table_too(tmp_path, capsys):
+    cloud, up = camera_cloud(((0.0, 0.1, 0.15, 0.08),), pitch=np.pi / 2, roll=0.0)
+    np.savez(tmp_path / "down.npz", xyz=cloud, table_normal=up)
+    found = report(tmp_path / "down.npz", capsys)
+    assert found["plane"]["tilt_deg"] < 0.3
+    assert found["plane"]["normal_in_input"][2] < -0.99
+    assert found["steps"] == pytest.approx([0.08], abs=0.005)
+
+
 def test_paper_mode_is_thrown_by_the_boxes(table, capsys):
     assert report(table, capsys, "--mode", "paper")["plane"]["tilt_deg"] > report(table, capsys)["plane"]["tilt_deg"]
 
