@@ -14,7 +14,7 @@ import cv2
 from robot_agent.loops import CONTROL_RATE, VisionLoop, WalkLoop
 from robot_agent.pipeline import VisionTick, WalkTick
 from sim_agent.body import SimulatedBody
-from sim_agent.rendering import StereoRenderer
+from sim_agent.rendering import StereoRenderer, frame_sequence
 from sim_agent.worlds import World
 from weaver_shared import topics
 from weaver_shared.bus import MemoryBus
@@ -47,6 +47,7 @@ class LockStep:
         self.clock = SimulatedClock()
         self.bus = MemoryBus()
         self._robot_id = robot_id
+        self._robot = robot
         self._tell_truth = tell_truth
         self._body = SimulatedBody(robot, world, seed)
         self._renderer = StereoRenderer(robot, world, seed)
@@ -57,7 +58,6 @@ class LockStep:
         self._workers = ThreadPoolExecutor(1)
         self._seeing: Future[VisionTick] | None = None
         self._ticks = 0
-        self._frames = 0
         self.operator = Operator(self.bus, robot_id, OPERATOR)
 
     def step(self) -> Moment:
@@ -74,8 +74,8 @@ class LockStep:
             seen = self._collect()
         self._vision.feel(sensed)
         if camera_due:
-            frame = self._renderer.render(self._body.scene_state(), self._frames)
-            self._frames += 1
+            scene = self._body.scene_state()
+            frame = self._renderer.render(scene, frame_sequence(self._robot, scene.stamp_ns))
             imu = self._vision.take_imu(frame.stamp_ns)
             self._seeing = self._workers.submit(self._vision.process, frame, imu)
         self._ticks += 1

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim_agent.render_timing import RenderTiming
-from sim_agent.rendering import StereoRenderer
+from sim_agent.rendering import StereoRenderer, frame_sequence
 from sim_agent.worlds import WORLD_NAMES, make_world
 from weaver_shared import topics
 from weaver_shared.bus import Bus, ZenohBus
@@ -77,11 +77,6 @@ def render_scenes(
             lost = scenes.overwritten
             bus.publish(robot_id, topics.HEALTH, timing.report(lost - overwritten), process="render")
             overwritten = lost
-
-
-def frame_sequence(robot: RobotDescription, stamp_ns: int) -> int:
-    """The number of the frame exposed at this stamp, counted on the control clock from its start."""
-    return round(stamp_ns * 1e-9 * robot.camera.rate)
 
 
 def preview(picture: NDArray[np.uint8]) -> bytes:

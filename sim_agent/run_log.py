@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from robot_agent.evaluation.trajectory import Trajectory, evaluate, path_length
 
 from robot_agent.evaluation.energy import cost_of_transport
+from robot_agent.evaluation.trajectory import Trajectory, evaluate, path_length
 from sim_agent.lock_step import Moment
 from sim_agent.worlds import World
 from weaver_shared.messages import AdaptationReport

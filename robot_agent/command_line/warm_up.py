@@ -3,26 +3,19 @@
 from __future__ import annotations
 
 import argparse
-import importlib
 import sys
 import time
+from importlib.metadata import entry_points
 
-STAGES = (
-    "robot_agent.kinematics",
-    "robot_agent.locomotion",
-    "robot_agent.odometry",
-    "robot_agent.perception",
-    "robot_agent.mapping",
-)
+GROUP = "weaver.kernels"
 
 
 def main(arguments: list[str]) -> int:
     argparse.ArgumentParser(prog="weaver warm-up", description=__doc__).parse_args(arguments)
-    for number, stage in enumerate(STAGES, start=1):
+    kernels = sorted(entry_points(group=GROUP), key=lambda entry: entry.value)
+    for number, entry in enumerate(kernels, start=1):
         started = time.monotonic()
-        print(f"[{number}/{len(STAGES)}] {stage} ", end="", file=sys.stderr, flush=True)
-        module = importlib.import_module(stage)
-        if hasattr(module, "warm_up"):
-            module.warm_up()
+        print(f"[{number}/{len(kernels)}] {entry.name} ", end="", file=sys.stderr, flush=True)
+        entry.load()()
         print(f"{time.monotonic() - started:.0f} s", file=sys.stderr, flush=True)
     return 0

@@ -25,7 +25,7 @@ STAND_SECONDS = 30.0
 
 
 def main(arguments: list[str]) -> int:
-    options = _parser().parse_args(arguments)
+    options = parser().parse_args(arguments)
     figures = walk(options)
     if options.json:
         print(json.dumps(_finite(figures)))
@@ -113,15 +113,15 @@ def _print(figures: dict[str, Any]) -> None:
         print(f"{key}: {json.dumps(_finite(value))}")
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="weaver walk", description=__doc__)
-    parser.add_argument("--robot", choices=("sim",), default="sim", help="which body walks")
-    parser.add_argument("--robot-description", default="weaver", help="a shipped robot or a TOML file")
-    parser.add_argument("--world", default="testbed", help="flat, testbed, outdoor or stairs")
-    parser.add_argument("--goal", default="5,0", help="x,y in m from the start")
-    parser.add_argument("--adapt", choices=("on", "off"), default="on", help="off: constant, for rough ground")
-    parser.add_argument("--gait", default="tripod", help="gait of the robot description")
-    parser.add_argument("--seed", type=int, default=1, help="seed of the world and of all sensor noise")
-    parser.add_argument("--timeout", type=float, default=600.0, help="simulated seconds before giving up")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
-    return parser
+def parser() -> argparse.ArgumentParser:
+    result = argparse.ArgumentParser(prog="weaver walk", description=__doc__)
+    result.add_argument("--robot", choices=("sim",), default="sim", help="which body walks")
+    result.add_argument("--robot-description", default="weaver", help="a shipped robot or a TOML file")
+    result.add_argument("--world", default="testbed", help="flat, testbed, outdoor or stairs")
+    result.add_argument("--goal", default="5,0", help="x,y in m from the start")
+    result.add_argument("--adapt", choices=("on", "off"), default="on", help="off: constant, for rough ground")
+    result.add_argument("--gait", default="tripod", help="gait of the robot description")
+    result.add_argument("--seed", type=int, default=1, help="seed of the world and of all sensor noise")
+    result.add_argument("--timeout", type=float, default=600.0, help="simulated seconds before giving up")
+    result.add_argument("--json", action="store_true", help="print one JSON object")
+    return result

@@ -107,3 +107,8 @@ class OpenGlPair:
 
     def _eyes(self, scene: SceneState) -> tuple[Pose, ...]:
         return tuple(scene.world_from_body @ mount for mount in self._mounts)
+
+
+def frame_sequence(robot: RobotDescription, stamp_ns: int) -> int:
+    """The number of the frame exposed at this stamp, counted on the control clock from its start."""
+    return round(stamp_ns * 1e-9 * robot.camera.rate)
