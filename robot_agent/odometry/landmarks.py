@@ -11,6 +11,9 @@ from robot_agent.odometry.compiled import compiled
 
 Array = NDArray[np.float64]
 
+NEAREST, FARTHEST = 0.1, 100.0
+"""m, depth of points that may be triangulated."""
+
 LEFT, RIGHT = 1, 2
 """Bits of `seen`."""
 
@@ -89,8 +92,11 @@ def views_of(rotation: Array, position: Array, eyes: Eyes, count: int) -> Views:
 
 
 @compiled
-def triangulate(landmarks: Landmarks, views: Views, count: int, parallax: float) -> None:
-    """Give a point to each landmark whose rays open by more than `parallax` (rad): where the rays pass nearest."""
+def triangulate(landmarks: Landmarks, views: Views, count: int, parallax: float, tolerance: float) -> None:
+    """Give a point to each landmark whose rays open by more than `parallax` (rad): where the rays pass nearest.
+
+    The point must lie in front of every eye that saw it and be seen there within `tolerance` (on the plane z = 1).
+    """
     least = np.cos(parallax)
     rays = np.empty((2 * count, 3))
     for row in range(landmarks.identity.shape[0]):
@@ -118,16 +124,19 @@ def triangulate(landmarks: Landmarks, views: Views, count: int, parallax: float)
         if narrowest > least:
             continue
         point = np.linalg.solve(normal, target).astype(np.float64)
-        landmarks.solved[row] = _in_front(landmarks, views, count, row, point)
+        landmarks.solved[row] = _agrees(landmarks, views, count, row, point, tolerance)
         landmarks.point[row] = point
 
 
 @compiled
-def _in_front(landmarks: Landmarks, views: Views, count: int, row: int, point: Array) -> bool:
+def _agrees(landmarks: Landmarks, views: Views, count: int, row: int, point: Array, tolerance: float) -> bool:
     for k in range(count):
         for e in range(2):
             if landmarks.seen[row, k] & (1 << e):
-                depth = views.rotation[k, e, 2] @ point + views.translation[k, e, 2]
-                if not 0.05 < depth < 100.0:
+                seen = views.rotation[k, e] @ point + views.translation[k, e]
+                if not NEAREST < seen[2] < FARTHEST:
+                    return False
+                error = np.abs(seen[:2] / seen[2] - landmarks.observation[row, k, e])
+                if not max(error[0], error[1]) < tolerance:
                     return False
     return True

@@ -19,6 +19,10 @@ from robot_agent.odometry.window_state import STATE, Frames
 Array = NDArray[np.float64]
 
 
+BEHIND = 1e6
+"""sigmas: the error of a point that is not in front of the eye."""
+
+
 class Elimination(NamedTuple):
     """What is needed to get a landmark's own step back from that of the frames."""
 
@@ -59,7 +63,7 @@ def whitened_error(
     p = landmarks.point[row]
     z = m[2, 0] * p[0] + m[2, 1] * p[1] + m[2, 2] * p[2] + o[2]
     if z < 0.05:
-        return 1e6, 1e6
+        return BEHIND, BEHIND
     x = (m[0, 0] * p[0] + m[0, 1] * p[1] + m[0, 2] * p[2] + o[0]) / z
     y = (m[1, 0] * p[0] + m[1, 1] * p[1] + m[1, 2] * p[2] + o[1]) / z
     observed = landmarks.observation[row, k, e]
@@ -148,6 +152,8 @@ def add_reprojections(
                 if not landmarks.seen[row, k] & (1 << e):
                     continue
                 error[0], error[1] = whitened_error(views, landmarks, row, k, e, per_sigma)
+                if error[0] >= BEHIND:  # has a weight of next to nothing, but a slope that throws the solution away
+                    continue
                 observation_rows(
                     rotation, position, eyes, linear, landmarks.point[row], k, e, per_sigma, by_pose, by_point
                 )

@@ -57,6 +57,7 @@ class SlidingWindow:
         self._samples: list[Array] = []
         self._resting = np.zeros(slots, dtype=np.bool_)
         self._keyframe = np.zeros(slots, dtype=np.bool_)
+        self._tracked = np.zeros(slots, dtype=np.int64)  # features each frame came with
         self._elimination = Elimination.of(ROWS, slots)
         self._prior = Prior(slots)
         self._bias_walk = np.array([imu.gyro_random_walk, imu.accel_random_walk])
@@ -97,6 +98,7 @@ class SlidingWindow:
 
     def see(self, tracks: Tracks) -> None:
         """Enter the newest frame's tracks."""
+        self._tracked[self.newest] = tracks.number
         self.landmarks.see(self.newest, tracks.identity, tracks.observation, tracks.seen)
 
     def add_frame(
@@ -124,7 +126,7 @@ class SlidingWindow:
         self._integrate_again_where_biases_moved()
         count, frames, landmarks, config = self.count, self.frames, self.landmarks, self._config
         _, _, views = exposure_views(frames, self._eyes, count)
-        triangulate(landmarks, views, count, config.parallax)
+        triangulate(landmarks, views, count, config.parallax, 2.0 * config.gate / self._per_sigma)
         everything = np.ones(ROWS, dtype=np.bool_)
         for _ in range(config.iterations):
             hessian, gradient = self._system(0, count - 1, everything)
@@ -202,9 +204,8 @@ class SlidingWindow:
         if (self.stamps[candidate] - self.stamps[previous]) * 1e-9 > self._config.keyframe_interval:
             return True
         seen = self.landmarks.seen
-        before = seen[:, previous] > 0
-        both = before & (seen[:, candidate] > 0)
-        return bool(both.sum() < self._config.keyframe_overlap * before.sum())
+        both = (seen[:, previous] > 0) & (seen[:, candidate] > 0)
+        return bool(both.sum() < self._config.keyframe_overlap * self._tracked[previous])
 
     def _drop(self, slot: int) -> None:
         """Leave a frame out, its inertia joined to the next one's."""
@@ -231,8 +232,8 @@ class SlidingWindow:
         self._prior.remove_frame(slot)
         self.frames.remove(slot)
         self.landmarks.remove_frame(slot)
-        for flags in (self._keyframe, self._resting):
-            flags[slot:-1] = flags[slot + 1 :].copy()
+        for column in (self._keyframe, self._resting, self._tracked):
+            column[slot:-1] = column[slot + 1 :].copy()
         self.stamps.pop(slot)
         self.count -= 1
 
