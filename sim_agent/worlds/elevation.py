@@ -6,6 +6,9 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+SEAM = 1e-9
+"""m by which a box reaches beyond its faces, so that no line falls between two that touch."""
+
 
 @njit(cache=True)
 def highest_box(x: Array, y: Array, centre: Array, half: Array, rotation: Array, height: Array) -> None:
@@ -21,7 +24,7 @@ def highest_box(x: Array, y: Array, centre: Array, half: Array, rotation: Array,
                 offset = rotation[k, 0, axis] * dx + rotation[k, 1, axis] * dy
                 slope = rotation[k, 2, axis]
                 if abs(slope) < 1e-12:
-                    if abs(offset) > half[k, axis]:
+                    if abs(offset) > half[k, axis] + SEAM:
                         high = -2e9
                     continue
                 near = (-half[k, axis] - offset) / slope
