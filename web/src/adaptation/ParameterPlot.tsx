@@ -7,7 +7,7 @@ import { history } from "../console/live";
 import type { Parameter } from "./parameters";
 
 const HEIGHT = 52;
-const REDRAW_PERIOD = 500; // ms
+const REDRAW_PERIOD = 1000; // ms
 const COLOURS = {
   light: { applied: "#0b6b80", desired: "#8a4b00" },
   dark: { applied: "#5fc4da", desired: "#ffb35c" },

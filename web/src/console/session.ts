@@ -11,7 +11,7 @@ import { react } from "./reactions";
 import { receive } from "./receive";
 import { useConsole } from "./store";
 
-const FLUSH_PERIOD = 66; // ms between two updates of the panels
+const FLUSH_PERIOD = 100; // ms between two updates of the panels
 const TICK_PERIOD = 250;
 const RETAIN_PERIOD = 500;
 const PING_PERIOD = 1000;

@@ -5,6 +5,7 @@ import type { SwingSample } from "../console/history";
 import { history } from "../console/live";
 import { selectedRobot } from "../console/control";
 import { useConsole } from "../console/store";
+import { useCanvasSize } from "../components/useCanvasSize";
 import { useFreshness, useLatest } from "../console/useLatest";
 
 const SPAN = 4; // s
@@ -23,8 +24,12 @@ export function GaitDiagram() {
   const legs = useConsole(selectedRobot)?.leg_names ?? [];
   const count = gait?.swing.length ?? (legs.length || 6);
 
+  useCanvasSize(canvas, count * ROW);
   useEffect(() => {
-    if (canvas.current !== null) draw(canvas.current, count, legs, COLOURS[scheme]);
+    const frame = requestAnimationFrame(() => {
+      if (canvas.current !== null) draw(canvas.current, count, legs, COLOURS[scheme]);
+    });
+    return () => cancelAnimationFrame(frame);
   }, [gait, count, legs, scheme]);
 
   return (
@@ -47,11 +52,9 @@ function draw(
 ): void {
   const context = canvas.getContext("2d");
   if (context === null) return;
-  const ratio = devicePixelRatio;
-  const width = canvas.clientWidth;
-  canvas.width = Math.round(width * ratio);
-  canvas.height = Math.round(count * ROW * ratio);
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  const width = canvas.width / devicePixelRatio;
+  context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+  context.clearRect(0, 0, width, count * ROW);
   context.font = "11px system-ui, sans-serif";
   context.textBaseline = "middle";
   const samples = history.swings;

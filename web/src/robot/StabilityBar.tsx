@@ -19,7 +19,7 @@ export function StabilityBar() {
         <span className="unit">{words}</span>
       </Reading>
       <div className="bar" aria-hidden>
-        <div className="bar-fill" style={{ width: `${100 * fraction}%` }} />
+        <div className="bar-fill" style={{ scale: `${fraction} 1` }} />
       </div>
     </div>
   );
