@@ -14,13 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.locomotion.gaits import GAITS, gait_of
+from robot_agent.locomotion.openshc import robots as openshc_robots
+from robot_agent.locomotion.openshc import step_cycle
+from robot_agent.locomotion.openshc import table as openshc_table
 from robot_agent.locomotion.trajectory import kinematic_gait
 from robot_agent.locomotion.trajectory_table import columns, rows
-from weaver_shared.errors import InputError, ResourceError
+from weaver_shared.errors import ConfigurationError, InputError, ResourceError
 from weaver_shared.messages import GaitParameters
 from weaver_shared.robots import load_robot, robot_names
 
 STIFFNESS = 2500.0
+COMPATIBLE = "openshc-0.5.11"
 
 
 def main(arguments: list[str]) -> int:
@@ -31,6 +35,8 @@ def main(arguments: list[str]) -> int:
         if not (isfinite(value) and value > 0.0):
             raise InputError(f"{name} {value} is not valid; use a number above zero")
     velocity = _velocity(options.velocity)
+    if options.compat:
+        return _compatible(options, velocity)
     robot = load_robot(options.robot)
     gait = gait_of(options.gait)
     parameters = GaitParameters(
@@ -50,6 +56,19 @@ def main(arguments: list[str]) -> int:
     return 0
 
 
+def _compatible(options: argparse.Namespace, velocity: NDArray[np.float64]) -> int:
+    """The trajectories of OpenSHC itself, its own gait timing, limits and solver included."""
+    if options.compat != COMPATIBLE:
+        raise ConfigurationError(f"--compat {options.compat!r} is unknown; known is {COMPATIBLE}")
+    robot = openshc_robots.robot_of(options.robot)
+    step_cycle.StepCycle.of(options.gait, robot.step_frequency, robot.dt)
+    with _opened(options.csv) as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(columns(robot.joints))
+        writer.writerows(openshc_table.rows(robot, options.gait, velocity, options.ticks))
+    return 0
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="weaver gait",
@@ -63,6 +82,12 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--frequency", type=float, default=1.0, help="strides per second, Hz")
     parser.add_argument("--height", type=float, default=0.05, help="how high a foot swings, m")
     parser.add_argument("--dt", type=float, default=0.01, help="length of a tick, s")
+    parser.add_argument(
+        "--compat",
+        metavar="VERSION",
+        help=f"{COMPATIBLE}: reproduce OpenSHC for --robot {', '.join(openshc_robots.ROBOTS)} and --gait "
+        f"{', '.join(step_cycle.GAITS)}; --velocity is then its throttle, -1..1, and tick and frequency are its own",
+    )
     parser.add_argument("--csv", default="-", metavar="FILE", help="where to write; - is the standard output")
     return parser
 

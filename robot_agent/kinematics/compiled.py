@@ -9,5 +9,5 @@ F = TypeVar("F", bound=Callable[..., object])
 
 
 def kernel(function: F) -> F:
-    """`njit` with a cache; a division by zero gives infinity as in numpy; the function keeps its types for type checkers."""
+    """`njit` with a cache, keeping the function's types; a division by zero gives infinity, as in numpy."""
     return cast(F, njit(cache=True, error_model="numpy")(function))
