@@ -25,10 +25,13 @@ settings.load_profile("deterministic")
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Whoever starts the product measures in real time, so it must have the computer for itself."""
+    """Whoever starts the product keeps real time and has the computer for itself; long walks begin the others."""
     for item in items:
         if "start_product" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.realtime)
+        if "walks" in item.path.parts:
+            item.add_marker(pytest.mark.walk)
+    items.sort(key=lambda item: item.get_closest_marker("walk") is None)
 
 
 @dataclass(frozen=True)
