@@ -88,9 +88,7 @@ def _require_free(port: int) -> None:
         except OverflowError as error:
             raise ConfigurationError(f"port {port} is not a port; use 1 to 65535") from error
         except OSError as error:
-            raise ResourceError(
-                f"port {port} can not be used ({error.strerror}); choose another with --port"
-            ) from error
+            raise ResourceError(f"port {port} can not be used ({error.strerror}); choose one with --port") from error
 
 
 def _port_or_free(port: int) -> int:

@@ -65,9 +65,7 @@ def test_a_process_that_dies_young_waits_before_it_starts_again(
     assert "in 1 s" in said[0]
 
 
-def test_settings_that_are_refused_are_not_tried_for_ever(
-    supervisor: Supervisor, tmp_path: Path, program: Path
-) -> None:
+def test_refused_settings_are_not_tried_for_ever(supervisor: Supervisor, tmp_path: Path, program: Path) -> None:
     (tmp_path / "refusing_program.py").write_text("raise SystemExit(2)")
     supervisor.add("the worker", ["refusing_program", str(program)])
     os.waitid(os.P_PID, supervisor.pids["the worker"], os.WEXITED | os.WNOWAIT)
