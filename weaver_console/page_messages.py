@@ -70,7 +70,11 @@ class Ping(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="pin
     t: float
 
 
-PageMessage = Select | CommandRequest | Retain | Teleoperation | Draft | ChooseLayer | View | Watch | Ping
+class Taken(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="taken"):
+    """The page has taken in one more frame."""
+
+
+PageMessage = Select | CommandRequest | Retain | Teleoperation | Draft | ChooseLayer | View | Watch | Ping | Taken
 
 _decoder: msgspec.json.Decoder[Any] = msgspec.json.Decoder(PageMessage)
 

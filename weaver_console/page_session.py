@@ -16,6 +16,7 @@ from weaver_console import page_messages as p
 from weaver_console.command_desk import CommandDesk, Reply
 from weaver_console.feed import Feed
 from weaver_console.link import Link
+from weaver_console.pace import Pace
 from weaver_console.plain import to_json
 from weaver_console.robot_record import RobotRecord
 from weaver_console.roster import Roster
@@ -44,6 +45,7 @@ class PageSession:
         self._link = link
         self._desk = desk
         self._feed = Feed(link, roster)
+        self._pace = Pace()
         self._waiting: deque[bytes] = deque(maxlen=MOST_WAITING)
         self._wake = asyncio.Event()
         self._loop = asyncio.get_running_loop()
@@ -83,10 +85,12 @@ class PageSession:
                 await asyncio.gather(with_timeout, return_exceptions=True)
             messages = [self._waiting.popleft() for _ in range(len(self._waiting))]
             if self._loop.time() >= due:
-                messages += self._feed.collect()
+                if self._pace.ready:
+                    messages += self._feed.collect()
                 due = self._loop.time() + TICK
             if messages:
                 text = "[" + ",".join(message.decode() for message in messages) + "]"
+                self._pace.sent()
                 await asyncio.wait_for(send_text(text), SENDING_TIMEOUT)
 
     def receive(self, data: str | bytes) -> None:
@@ -139,6 +143,8 @@ class PageSession:
                 self._feed.cameras = message.cameras
             case p.Ping():
                 self.tell({"type": "pong", "t": message.t})
+            case p.Taken():
+                self._pace.taken()
 
     def _select(self, robot: str | None) -> None:
         if robot is not None and self._link.robot(robot) is None:
