@@ -37,15 +37,16 @@ def transition(mass: float, damping: float, stiffness: float, dt: float, step: A
 
 
 @kernel
-def step_admittance(state: Array, force: Array, step: Array, largest_offset: float) -> None:
+def step_admittance(state: Array, force: Array, step: Array, largest_force: float, largest_offset: float) -> None:
     """Advance `state` (legs, 2), offset m and its rate, by one tick under `force` (legs,) N, in place.
 
     An offset held at its bound keeps no speed, so it leaves the bound as soon as the force turns.
     """
     for leg in range(state.shape[0]):
         x, v = state[leg, 0], state[leg, 1]
-        offset = step[0, 0] * x + step[0, 1] * v + step[0, 2] * force[leg]
-        rate = step[1, 0] * x + step[1, 1] * v + step[1, 2] * force[leg]
+        felt = min(max(force[leg], -largest_force), largest_force)
+        offset = step[0, 0] * x + step[0, 1] * v + step[0, 2] * felt
+        rate = step[1, 0] * x + step[1, 1] * v + step[1, 2] * felt
         if abs(offset) > largest_offset:
             offset = largest_offset if offset > 0.0 else -largest_offset
             rate = 0.0

@@ -56,6 +56,44 @@ def carry(points: Array, linear: Array, angular: Array, dt: float) -> None:
 
 
 @kernel
+def carry_standing(mode: NDArray[np.int64], place: Array, linear: Array, angular: Array, dt: float) -> None:
+    """`carry` for the feet on the ground alone."""
+    for leg in range(mode.size):
+        if mode[leg] == STAND or mode[leg] == HANG:
+            carry(place[leg : leg + 1], linear, angular, dt)
+
+
+@kernel
+def count_mode(mode: NDArray[np.int64], wanted: int) -> int:
+    """How many feet are in a mode."""
+    count = 0
+    for leg in range(mode.size):
+        count += mode[leg] == wanted
+    return count
+
+
+@kernel
+def until_next_lift(mode: NDArray[np.int64], lifted: Flags, leg_phase: Array, swing: float) -> float:
+    """Fraction of a stride until the next foot is due to lift off."""
+    least = 1.0
+    for leg in range(mode.size):
+        if leg_phase[leg] >= swing or (not lifted[leg] and (mode[leg] == STAND or mode[leg] == HANG)):
+            least = min(least, 1.0 - leg_phase[leg])
+    return least
+
+
+@kernel
+def take_anchors(
+    mode: NDArray[np.int64], contact: Flags, measured: Array, place: Array, feel_ground: bool, anchor: Array
+) -> None:
+    """Standing feet are where they are measured to be; without a sense of ground, where they are wanted."""
+    for leg in range(mode.size):
+        if mode[leg] == STAND and (contact[leg] or not feel_ground):
+            for k in range(3):
+                anchor[leg, k] = measured[leg, k] if feel_ground else place[leg, k]
+
+
+@kernel
 def lift(
     leg: int, mode: NDArray[np.int64], place: Array, lift_off: Array, offset: Array, up: Array, height: float,
     swing_height: Array, lifted: Flags, reached: Array,

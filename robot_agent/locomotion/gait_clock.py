@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.gaits import Gait
 
 Array = NDArray[np.float64]
@@ -22,31 +23,38 @@ class GaitClock:
         self.phase = 0.0
         self.duty = gait.duty
         self._offset = gait.offsets
+        self._goal = gait.offsets
         self._glide = glide
+        self.leg_phase = self._offset.copy()  # (legs,), 0 at lift-off
 
     @property
     def swing(self) -> float:
         """Fraction of a stride that a leg swings."""
         return 1.0 - self.duty
 
-    @property
-    def leg_phase(self) -> Array:
-        """Phase of every leg, (legs,), 0 at lift-off."""
-        result: Array = (self.phase + self._offset) % 1.0
-        return result
-
     def choose(self, gait: Gait) -> None:
-        self.gait = gait
+        if gait is not self.gait:
+            self.gait, self._goal = gait, gait.offsets
 
     def restart(self, phase: float) -> None:
         """Begin anew at a common phase, with the chosen gait's offsets."""
         self.phase = phase % 1.0
         self.duty = self.gait.duty
-        self._offset = self.gait.offsets
+        self._offset = self._goal.copy()
+        self.leg_phase = (self.phase + self._offset) % 1.0
 
     def advance(self, strides: float) -> None:
         """Move on by a number of strides, frequency times dt."""
         self.phase = (self.phase + strides) % 1.0
-        gap = (self.gait.offsets - self._offset + 0.5) % 1.0 - 0.5
-        self._offset = (self._offset + np.clip(gap, -self._glide * strides, self._glide * strides)) % 1.0
-        self.duty += float(np.clip(self.gait.duty - self.duty, -self._glide * strides, self._glide * strides))
+        self.leg_phase = np.empty_like(self._offset)
+        _glide_offsets(self._offset, self._goal, self._glide * strides, self.phase, self.leg_phase)
+        step = self._glide * strides
+        self.duty += min(max(self.gait.duty - self.duty, -step), step)
+
+
+@kernel
+def _glide_offsets(offset: Array, goal: Array, largest: float, phase: float, leg_phase: Array) -> None:
+    for leg in range(offset.size):
+        gap = (goal[leg] - offset[leg] + 0.5) % 1.0 - 0.5
+        offset[leg] = (offset[leg] + min(max(gap, -largest), largest)) % 1.0
+        leg_phase[leg] = (phase + offset[leg]) % 1.0

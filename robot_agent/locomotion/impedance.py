@@ -19,7 +19,6 @@ class LegImpedance:
         self._dt = dt
         self._step = np.zeros((2, 3))
         self._stiffness = 0.0
-        self._force = np.zeros(legs)
         self.offset = np.zeros((legs, 2))
 
     def clear(self) -> None:
@@ -33,5 +32,4 @@ class LegImpedance:
             damping = damping_of(mass, config.damping_ratio, stiffness, config.smallest_damping)
             transition(mass, damping, stiffness, self._dt, self._step)
             self._stiffness = stiffness
-        np.clip(surplus, -config.largest_force, config.largest_force, out=self._force)
-        step_admittance(self.offset, self._force, self._step, config.largest_offset)
+        step_admittance(self.offset, surplus, self._step, config.largest_force, config.largest_offset)

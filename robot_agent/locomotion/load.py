@@ -5,8 +5,12 @@ from numpy.typing import NDArray
 
 from robot_agent.kinematics import solve_symmetric
 from robot_agent.kinematics.compiled import kernel
+from robot_agent.locomotion.feet import REACH, STAND, SWING
 
 Array = NDArray[np.float64]
+
+SMALLEST_SHARE = 0.05
+"""Of a foot about to lift off, so that three feet always balance."""
 
 
 @kernel
@@ -45,6 +49,35 @@ def share_load(feet_in_body: Array, centre_of_mass: Array, up: Array, share: Arr
     if carried > 0.0:
         for leg in range(legs):
             load[leg] *= weight / carried
+
+
+@kernel
+def ease_share(
+    mode: NDArray[np.int64],
+    lifted: NDArray[np.bool_],
+    leg_phase: Array,
+    lifting: bool,
+    stride_time: float,
+    load_time: float,
+    dt: float,
+    share: Array,
+) -> None:
+    """Move each foot's `share` (legs,) of the weight: on over `load_time` s after touch-down, off before lift-off."""
+    for leg in range(share.size):
+        if mode[leg] == SWING or mode[leg] == REACH:
+            share[leg] = 0.0
+            continue
+        wanted = 1.0 if mode[leg] == STAND else 0.0
+        if lifting and not lifted[leg]:
+            wanted = min(wanted, max((1.0 - leg_phase[leg]) * stride_time / load_time, SMALLEST_SHARE))
+        share[leg] += min(max(wanted - share[leg], -dt / load_time), dt / load_time)
+
+
+@kernel
+def surplus_force(mode: NDArray[np.int64], force: Array, load: Array, surplus: Array) -> None:
+    """Fill `surplus` (legs,) N: what standing feet feel beyond their load; nothing for the others."""
+    for leg in range(surplus.size):
+        surplus[leg] = force[leg] - load[leg] if mode[leg] == STAND else 0.0
 
 
 @kernel

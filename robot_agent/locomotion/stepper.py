@@ -8,13 +8,26 @@ from numpy.typing import NDArray
 from robot_agent.kinematics import LegModel
 from robot_agent.locomotion.body_motion import BodyMotion
 from robot_agent.locomotion.body_velocity import approach, limit_velocity
-from robot_agent.locomotion.feet import HANG, REACH, STAND, SWING, Feet, carry, lift, move_swinging
+from robot_agent.locomotion.feet import (
+    HANG,
+    REACH,
+    STAND,
+    SWING,
+    Feet,
+    carry,
+    carry_standing,
+    count_mode,
+    lift,
+    move_swinging,
+    take_anchors,
+    until_next_lift,
+)
 from robot_agent.locomotion.gait_clock import GaitClock
 from robot_agent.locomotion.gait_parameters import SteadyParameters
 from robot_agent.locomotion.gait_start import best_start, overrun
 from robot_agent.locomotion.gaits import GAITS, Gait
 from robot_agent.locomotion.impedance import LegImpedance
-from robot_agent.locomotion.load import share_load
+from robot_agent.locomotion.load import ease_share, share_load, surplus_force
 from robot_agent.locomotion.senses import LegSenses
 from robot_agent.locomotion.workspace import reachable_radius
 from weaver_shared.config.locomotion import LocomotionConfig
@@ -44,11 +57,12 @@ class Stepper:
             model, self._nominal, np.array([-0.04, 0.0, 0.04]), 0.5 * config.largest_stride + 0.02
         )
         self._down_limit = float(self._nominal[:, 2].min()) - 0.09
+        self._up_limit = float(self._nominal[:, 2].max()) + 0.16
         self._waited = 0.0
-        self._skipped = False
+        self._halted = False  # no foot lifts any more
+        self._skipped = False  # a foot has missed its lift-off, so the walk has to end before it goes on
         self._limited = np.zeros(3)
         self._surplus = np.zeros(legs)
-        self._anchor_weight = np.ones(legs)
         self.clock = GaitClock(GAITS["tripod"])
         self.feet = Feet(legs)
         self.body = BodyMotion(config.posture, -float(self._nominal[:, 2].mean()), dt)
@@ -132,7 +146,7 @@ class Stepper:
             self.walking, self._skipped, self.pace, self._waited = True, False, 1.0, 0.0
             self._halted = False
         elif self.walking:
-            in_air = bool(((self.feet.mode == SWING) | (self.feet.mode == REACH)).any())
+            in_air = count_mode(self.feet.mode, SWING) + count_mode(self.feet.mode, REACH) > 0
             self._halted = not moving or self._skipped
             if self._halted and not in_air and not self.commanded.any():
                 self.walking = False
@@ -144,11 +158,8 @@ class Stepper:
         """Run the clock and lift the feet whose swing begins, or hold it while a foot still reaches for the ground."""
         feet, clock = self.feet, self.clock
         strides = parameters.frequency * self._dt
-        standing = (feet.mode == STAND) | (feet.mode == HANG)
-        until_lift = float(
-            np.where(standing & ~feet.lifted | (clock.leg_phase >= clock.swing), 1.0 - clock.leg_phase, 1.0).min()
-        )
-        reaching = bool((feet.mode == REACH).any())
+        until_lift = until_next_lift(feet.mode, feet.lifted, clock.leg_phase, clock.swing)
+        reaching = count_mode(feet.mode, REACH) > 0
         target = min(max(until_lift / BRAKING_STRIDE, 0.0), 1.0) if reaching else 1.0
         change = self._dt / PACE_TIME
         self.pace += min(max(target - self.pace, -change), change)
@@ -182,18 +193,9 @@ class Stepper:
         if far > FREE_OVERRUN:
             self.velocity *= max((LARGEST_OVERRUN - far) / (LARGEST_OVERRUN - FREE_OVERRUN), 0.0)
             self.reasons += ("a foot is left far behind",)
-        np.copyto(self._anchor_weight, np.where(feet.mode == HANG, 0.1, 1.0))
-        body.update(feet.anchor, self._anchor_weight, senses.up, senses.centre_of_mass)
-        linear = body.linear.copy()
-        linear[:2] += self.velocity[:2]
-        linear[2] += body.climb(self.velocity)
-        angular = body.angular.copy()
-        angular[2] += self.velocity[2]
-        standing = (feet.mode == STAND) | (feet.mode == HANG)
-        carried = feet.place[standing]
-        carry(carried, linear, angular, self._dt)
-        feet.place[standing] = carried
-        carry(feet.anchor, linear, angular, self._dt)
+        body.update(feet.anchor, feet.mode, senses.up, senses.centre_of_mass, self.velocity)
+        carry_standing(feet.mode, feet.place, body.whole_linear, body.whole_angular, self._dt)
+        carry(feet.anchor, body.whole_linear, body.whole_angular, self._dt)
         carry(feet.lift_off, body.linear, body.angular, self._dt)
         move_swinging(
             feet.mode,
@@ -216,27 +218,17 @@ class Stepper:
             config.feel_ground,
             self._dt,
             self._down_limit,
-            float(self._nominal[:, 2].max()) + 0.16,
+            self._up_limit,
         )
-        grounded = feet.mode == STAND
-        if config.feel_ground:
-            grounded &= senses.contact
-            feet.anchor[grounded] = senses.feet[grounded]
-        else:
-            feet.anchor[grounded] = feet.place[grounded]
+        take_anchors(feet.mode, senses.contact, senses.feet, feet.place, config.feel_ground, feet.anchor)
 
     def _carry_load(self, senses: LegSenses, parameters: SteadyParameters) -> None:
         """Share the weight among the standing feet, easing it on after touch-down and off before lift-off."""
-        foothold = self._config.foothold
-        wanted = (self.feet.mode == STAND).astype(np.float64)
-        if self.walking and not self._halted:
-            left = (1.0 - self.clock.leg_phase) / parameters.frequency / foothold.load_time
-            wanted = np.where(self.feet.lifted, wanted, np.minimum(wanted, np.maximum(left, 0.05)))
-        step = self._dt / foothold.load_time
-        self.share += np.clip(wanted - self.share, -step, step)
-        self.share[(self.feet.mode == SWING) | (self.feet.mode == REACH)] = 0.0
-        share_load(self.feet.place, senses.centre_of_mass, senses.up, self.share, self._weight, self.load)
+        feet = self.feet
+        lifting = self.walking and not self._halted
+        stride_time, load_time = 1.0 / parameters.frequency, self._config.foothold.load_time
+        ease_share(feet.mode, feet.lifted, self.clock.leg_phase, lifting, stride_time, load_time, self._dt, self.share)
+        share_load(feet.place, senses.centre_of_mass, senses.up, self.share, self._weight, self.load)
         if self._config.feel_ground:
-            np.subtract(senses.force, self.load, out=self._surplus)
-            self._surplus[self.feet.mode != STAND] = 0.0
+            surplus_force(feet.mode, senses.force, self.load, self._surplus)
             self.impedance.step(self._surplus, parameters.stiffness)

@@ -15,7 +15,7 @@ def respond(mass, damping, stiffness, force, *, rate, seconds):
     step, state = np.zeros((2, 3)), np.zeros((1, 2))
     transition(mass, damping, stiffness, 1.0 / rate, step)
     for _ in range(round(seconds * rate)):
-        step_admittance(state, np.array([force]), step, 10.0)
+        step_admittance(state, np.array([force]), step, 1e9, 10.0)
     return state[0]
 
 

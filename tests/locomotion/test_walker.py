@@ -72,7 +72,7 @@ def test_it_stands_up_from_anywhere_and_sits_down_again():
 def test_standing_is_at_rest():
     ideal = Ideal()
     start = ideal.joints.copy()
-    ideal.run(60.0)
+    ideal.run(15.0)
     assert np.abs(ideal.joints - start).max() < 1e-3
 
 
