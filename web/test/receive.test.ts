@@ -36,6 +36,12 @@ describe("the store", () => {
     expect(receive(INITIAL, [{ type: "pong", t: 900 }], 1000).roundTrip).toBeCloseTo(0.1);
   });
 
+  it("makes values older when the way is slow", () => {
+    const slow = { ...INITIAL, selected: "a", roundTrip: 2 };
+    expect(receive(slow, [value("k", 1)], 5000).values["k"]?.received).toBe(3000);
+    expect(receive({ ...slow, roundTrip: 0.1 }, [value("k", 1)], 5000).values["k"]?.received).toBe(5000);
+  });
+
   it("ignores messages it does not know", () => {
     expect(receive(INITIAL, [{ type: "novelty" } as unknown as Incoming], 0)).toEqual(INITIAL);
   });

@@ -3,6 +3,8 @@ import type { Incoming, LogEntry } from "../protocol/wire";
 import type { ConsoleState, Stamped } from "./store";
 
 const LOG_LENGTH = 300;
+/** Round trip above which values can no longer pass for new, s. */
+const SLOW = 0.4;
 
 export function receive(state: ConsoleState, messages: readonly Incoming[], now: number): ConsoleState {
   const next = { ...state };
@@ -22,7 +24,7 @@ export function receive(state: ConsoleState, messages: readonly Incoming[], now:
         break;
       case "value":
         if (message.robot === next.selected) {
-          values[message.key] = { value: message.value, received: now - 1000 * message.age_s };
+          values[message.key] = { value: message.value, received: now - 1000 * (message.age_s + delay(next)) };
         }
         break;
       case "forget":
@@ -52,6 +54,11 @@ export function receive(state: ConsoleState, messages: readonly Incoming[], now:
   }
   next.values = values;
   return next;
+}
+
+/** Seconds by which values are late: none on a quick way, on a slow one the whole way there and back, to be safe. */
+export function delay({ roundTrip }: Pick<ConsoleState, "roundTrip">): number {
+  return roundTrip !== null && roundTrip > SLOW ? roundTrip : 0;
 }
 
 /** Whether `key` is one of `patterns`, each a key or a prefix followed by a star. */

@@ -22,6 +22,7 @@ const UNANSWERED_PINGS = 5;
 const page = newPageId();
 let waiting: Incoming[] = [];
 let unansweredPings = 0;
+let untakenFrames = 0;
 let flushTimer: ReturnType<typeof setTimeout> | undefined;
 
 const socket = new ReconnectingSocket(() => socketAddress(page), { opened, received, lost });
@@ -58,6 +59,7 @@ function ping(): void {
 
 function opened(): void {
   unansweredPings = 0;
+  untakenFrames = 0;
   useConsole.setState({ connection: "open", lostAt: null });
   send({ type: "ping", t: performance.now() });
 }
@@ -73,6 +75,7 @@ function lost(code: number): void {
 function received(messages: Incoming[]): void {
   unansweredPings = 0;
   waiting.push(...messages);
+  untakenFrames++;
   if (messages.some((message) => message.type !== "value")) flush();
   else flushTimer ??= setTimeout(flush, FLUSH_PERIOD);
 }
@@ -82,7 +85,12 @@ function flush(): void {
   flushTimer = undefined;
   const messages = waiting;
   waiting = [];
-  if (messages.length === 0) return;
+  if (messages.length > 0) show(messages);
+  // NOTE: told only after the work, so that a busy page is sent less rather than later.
+  for (; untakenFrames > 0; untakenFrames--) send({ type: "taken" });
+}
+
+function show(messages: readonly Incoming[]): void {
   const now = performance.now();
   const stored = messages.filter((message) => !(message.type === "value" && message.key.startsWith("tele/map/")));
   const before = useConsole.getState();

@@ -112,7 +112,8 @@ export type Outgoing =
   | { type: "layer"; name: string }
   | { type: "view"; follow?: boolean; truth?: boolean; frusta?: boolean; trail?: boolean }
   | { type: "watch"; cameras: boolean }
-  | { type: "ping"; t: number };
+  | { type: "ping"; t: number }
+  | { type: "taken" };
 
 /** The messages of a frame; an unreadable frame is none, so that one bad sender can not stop the page. */
 export function parseFrame(text: string): Incoming[] {

@@ -6,6 +6,7 @@ import { useConsole } from "../console/store";
 /** Seconds without a heartbeat after which the robot counts as silent. */
 const SILENT_AFTER = 1;
 const PONG_OVERDUE = 3;
+const SLOW = 1;
 
 export function LinkReadings() {
   const down = useConsole((state) => downlink(state.link?.heartbeat_age_s ?? null, state.linkReceived, state.now));
@@ -27,12 +28,15 @@ export function LinkReadings() {
           {!open || down === null ? "none" : downLost ? `${spokenAge(down)} silent` : `${spokenAge(down)}, ${rate} Hz`}
         </dd>
       </div>
-      <div data-bad={up === null} title="To the console and back, and to the robot and back for the last command">
+      <div
+        data-bad={up === null || up > SLOW}
+        title="To the console and back, and to the robot and back for the last command"
+      >
         <dt>
           <span aria-hidden>↑</span> console
         </dt>
         <dd>
-          {up === null ? "none" : `${milliseconds(up)} ms`}
+          {up === null ? "none" : up > SLOW ? `${fixed(up, 1)} s, slow` : `${milliseconds(up)} ms`}
           {robotRoundTrip !== null && up !== null && (
             <span className="unit">, robot {milliseconds(robotRoundTrip)} ms</span>
           )}
