@@ -71,7 +71,7 @@ def _part(options: argparse.Namespace, *, browser: bool) -> dict[str, Any]:
             time.sleep(1.0)
         elapsed = time.monotonic() - began
         cpu = {name: (_cpu_seconds(pid) - before[name]) / elapsed for name, pid in started["pids"].items()}
-        return {"loops": operator.summary(), "cpu_cores": cpu, "mode": operator.mode}
+        return {"loops": operator.summary(), "cpu_cores": cpu, "mode": operator.mode, "notes": started["notes"]}
 
 
 @contextlib.contextmanager
@@ -86,11 +86,11 @@ def _product(world: str, port: int) -> Iterator[dict[str, Any]]:
         first = process.stderr.readline()
         if not first.startswith("{"):
             raise ResourceError(f"`weaver up` did not start: {first.strip()}")
-        drain = threading.Thread(target=process.stderr.read, daemon=True)
-        drain.start()
+        notes: list[str] = []
+        threading.Thread(target=notes.extend, args=(process.stderr,), daemon=True).start()
         if not process.stdout.readline():
             raise ResourceError("`weaver up` ended before its page answered")
-        yield json.loads(first)
+        yield json.loads(first) | {"notes": notes}
     finally:
         process.terminate()
         process.wait(10.0)
