@@ -15,6 +15,9 @@ M = TypeVar("M")
 HEARTBEAT_TIMEOUT_NS = 1_000_000_000
 """Silence after which a robot counts as lost."""
 
+LAST_WORDS_NS = 100_000_000
+"""How long after its last heartbeat a robot that died may still be heard."""
+
 CONFLICT_NS = 2_000_000_000
 """How long a second robot with the same id is reported after its last heartbeat."""
 
@@ -70,9 +73,10 @@ class RobotRecord:
         if heartbeat.session in self.former_sessions:
             self.intruder_ns = now_ns
             return False
+        restarted = self.begin_session(heartbeat.session)
         self.heartbeat_ns = now_ns
         self.counts["hb"] = self.counts.get("hb", 0) + 1
-        return self.begin_session(heartbeat.session)
+        return restarted
 
     def begin_session(self, session: str) -> bool:
         """Forget what a former start of the robot said; True if it was another start."""
@@ -81,11 +85,19 @@ class RobotRecord:
         restarted = bool(self.session)
         if restarted:
             self.former_sessions.add(self.session)
-            self.values.clear()
-            self.ground = Ground()
+            self._forget_former()
             self.generation += 1
         self.session = session
         return restarted
+
+    def _forget_former(self) -> None:
+        """Drop what the former start can have said; a new one may speak before its first heartbeat is heard."""
+        last_ns = (self.heartbeat_ns or 0) + LAST_WORDS_NS
+        self.values = {key: value for key, value in self.values.items() if value.received_ns > last_ns}
+        self.ground = Ground()
+        for value in self.values.values():
+            if isinstance(value.message, MapTile):
+                self.ground.put(value.message)
 
     def measure_rates(self, elapsed: float) -> None:
         """Turn the counts of the last `elapsed` s into rates."""

@@ -51,6 +51,19 @@ def test_a_restarted_robot_is_not_mistaken_for_its_former_self(field: Field):
     assert any("started anew" in text for text in _texts(field))
 
 
+def test_what_a_restarted_robot_says_before_its_first_heartbeat_is_kept(field: Field):
+    former = field.robot(session="first")
+    former.publish_map(2)
+    field.forward(former, 0.2)
+    field.clock.forward(seconds=3.0)
+    later = field.robot(session="second")
+    later.publish_map(1)
+    field.forward(later, 0.1)
+    record = field.link.robot("weaver")
+    assert len(record.ground.tiles) == 4
+    assert sum(key.startswith("tele/map/") for key in record.values) == 4
+
+
 def test_two_robots_with_one_id_are_reported_until_one_is_gone(field: Field):
     first, second = field.robot(session="first"), field.robot(session="second")
     field.forward(first, 0.2)
