@@ -60,7 +60,7 @@ function ping(): void {
 function opened(): void {
   unansweredPings = 0;
   untakenFrames = 0;
-  useConsole.setState({ connection: "open", lostAt: null });
+  useConsole.setState({ connection: "open", lostAt: null, roundTrip: null });
   send({ type: "ping", t: performance.now() });
 }
 
