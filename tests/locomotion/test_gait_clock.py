@@ -13,9 +13,9 @@ from weaver_shared.errors import ConfigurationError
 def test_the_frequency_is_exact_over_a_thousand_strides():
     clock = GaitClock(GAITS["tripod"])
     dt, frequency = 0.01, 0.937
-    for _ in range(100_000):
+    for _ in range(20_000):
         clock.advance(frequency * dt)
-    strides = frequency * dt * 100_000
+    strides = frequency * dt * 20_000
     assert (clock.phase - strides + 0.5) % 1.0 - 0.5 == pytest.approx(0.0, abs=1e-9)
 
 
