@@ -6,7 +6,7 @@ walk loop     joints, IMU   -> state    -> navigation -> locomotion -> joint tar
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -181,7 +181,18 @@ class WalkPipeline:
     def _navigate(self, sensed: Proprioception) -> NavigationState:
         if self._propagator is None:
             self._propagator = StatePropagator(self._robot.imu, initial_pose(self._robot, sensed.joint_position))
-        return self._propagator.propagate(sensed.imu)
+        state = self._propagator.propagate(sensed.imu)
+        if self._vigilance.odometry is None:
+            # Inertia alone does not see the robot stand up: until pictures do, the legs say how high it is.
+            state = replace(state, world_from_body=self._standing_on_feet(state.world_from_body, sensed))
+        return state
+
+    def _standing_on_feet(self, world_from_body: Pose, sensed: Proprioception) -> Pose:
+        """The pose with its height such that the lowest foot touches the ground at z = 0."""
+        feet = feet_in_body(self._robot, sensed.joint_position) @ world_from_body.rotation.T
+        x, y, _ = world_from_body.position
+        height = self._robot.foot_radius - float(feet[:, 2].min())
+        return Pose(rotation=world_from_body.rotation, position=np.array([x, y, height]))
 
     def _velocity(
         self, state: NavigationState, orders: Orders, permission: Permission

@@ -57,7 +57,7 @@ def _start(supervisor: Supervisor, options: argparse.Namespace, *, rendezvous: s
     supervisor.add("vision", ["weaver_shared.command_line", "robot", "--role", "vision", *known, *name], nice=-5)
     if options.console:
         console = ["--host", HOST, "--port", str(options.port), "--listen", rendezvous, "--connect", robot]
-        supervisor.add("the console", ["weaver_shared.command_line", "console", *console])
+        supervisor.add("the console", ["weaver_shared.command_line", "console", *console], nice=-5)
     print(json.dumps({"bus": rendezvous, "pids": supervisor.pids}), file=sys.stderr, flush=True)
 
 
