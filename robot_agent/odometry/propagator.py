@@ -18,7 +18,7 @@ from weaver_shared.config.odometry import FailureConfig
 from weaver_shared.frames import GRAVITY
 from weaver_shared.messages import ImuBatch, OdometryEstimate, OdometryQuality
 from weaver_shared.robots.description import Imu
-from weaver_shared.transforms import Pose, rotation_exp, rotation_log
+from weaver_shared.transforms import Pose, rotation_exp, rotation_log, skew
 
 Array = NDArray[np.float64]
 
@@ -165,7 +165,8 @@ class StatePropagator:
         excess = abs(norm - GRAVITY) / GRAVITY
         gain = LEVEL_RATE * dt * max(0.0, 1.0 - 4.0 * excess)
         if gain > 0.0:
-            rotation = rotation_exp(gain * np.cross(force / norm, [0.0, 0.0, 1.0])) @ rotation
+            towards_up = np.array([force[1], -force[0], 0.0]) / norm  # cross product with the vertical
+            rotation = rotation_exp(gain * towards_up) @ rotation
         self._world_from_imu = Pose(rotation=rotation, position=self._world_from_imu.position)
 
     def _recent(self) -> tuple[NDArray[np.int64], Array]:
@@ -189,7 +190,7 @@ class StatePropagator:
     def _state(self) -> NavigationState:
         imu = self._shown()
         body = imu @ self._imu_from_body
-        lever = imu.rotation @ np.cross(self._rate, self._imu_from_body.position)
+        lever = imu.rotation @ (skew(self._rate) @ self._imu_from_body.position)
         return NavigationState(
             stamp_ns=self._now if self._now is not None else 0,
             world_from_body=body,
