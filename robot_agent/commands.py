@@ -184,7 +184,8 @@ class CommandDesk:
             names = {CommandName.STOP, CommandName.TAKE_CONTROL, CommandName.RELEASE_CONTROL, CommandName.SET_GAIT}
             names |= {CommandName.SET_MISSION, CommandName.SET_OVERRIDE, CommandName.CLEAR_OVERRIDE}
             if self._stop_level:
-                names.add(CommandName.RELEASE_STOP)
+                if self._situation.settled:
+                    names.add(CommandName.RELEASE_STOP)
             elif mode in ("OFF", "READY", "SIT") and not self._situation.stand_blockers:
                 names.add(CommandName.STAND)
             if mode in ("STAND", "WALK", "HOLD"):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from robot_agent.mapping.elevation_fusion import Extent, FusionRules, fuse
 from robot_agent.mapping.rolling_grid import RollingGrid
 from robot_agent.mapping.sliding_features import cell_features
-from robot_agent.mapping.tiles import quantised_tile
+from robot_agent.mapping.tiles import quantised_tile, worth_sending
 from weaver_shared.config.mapping import MappingConfig
 from weaver_shared.messages import MapTile, OdometryEstimate
 
@@ -65,6 +65,7 @@ class TerrainMap:
             ceiling=config.sigma_ceiling,
         )
         self._changed: set[tuple[int, int]] = set()
+        self._sent: dict[tuple[int, int], MapTile] = {}
 
     def update(self, perceived: Perceived, odometry: OdometryEstimate) -> None:
         """Merge one frame's heights and renew roughness and step height where they changed.
@@ -138,9 +139,17 @@ class TerrainMap:
         return float(self.grid.elevation[row % self.grid.size, column % self.grid.size])
 
     def changed_tiles(self, stamp_ns: int) -> list[MapTile]:
-        """Tiles that changed since the last call, as of `stamp_ns`."""
+        """Tiles that changed noticeably since they were last returned, as of `stamp_ns`."""
         changed, self._changed = self._changed, set()
-        return [quantised_tile(self.grid, i, j, stamp_ns) for i, j in sorted(changed) if self._holds_tile(i, j)]
+        result = []
+        for i, j in sorted(changed):
+            if not self._holds_tile(i, j):
+                continue
+            tile = quantised_tile(self.grid, i, j, stamp_ns)
+            if worth_sending(tile, self._sent.get((i, j))):
+                self._sent[i, j] = tile
+                result.append(tile)
+        return result
 
     def _worst(self, values: NDArray[np.float32], sigmas: NDArray[np.float32]) -> tuple[float, float]:
         worst = float(np.quantile(values, self._config.query_quantile))

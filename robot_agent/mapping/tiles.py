@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.mapping.rolling_grid import RollingGrid
 from weaver_shared.messages import MapTile
+
+NOTICED_MM = 3
+NOTICED_INDEX = 10
+NOTICED_SHARE = 0.02
+"""A tile is sent again when more than this share of its cells moved by more than 3 mm or 5 % of an index."""
 
 UNKNOWN_ELEVATION = -32768
 UNKNOWN = 255
@@ -34,6 +41,26 @@ def quantised_tile(grid: RollingGrid, i: int, j: int, stamp_ns: int) -> MapTile:
         step_height=_quantised_index(grid.step_height[place]),
         age_s=np.where(known, age, UNKNOWN).astype(np.uint8),
     )
+
+
+def worth_sending(tile: MapTile, sent: MapTile | None) -> bool:
+    """Whether a tile differs from the one sent before by more than the pictures' noise."""
+    if sent is None:
+        return True
+    return (
+        _differs(tile.elevation_mm, sent.elevation_mm, UNKNOWN_ELEVATION, NOTICED_MM)
+        or _differs(tile.roughness, sent.roughness, UNKNOWN, NOTICED_INDEX)
+        or _differs(tile.step_height, sent.step_height, UNKNOWN, NOTICED_INDEX)
+    )
+
+
+def _differs(now: NDArray[Any], before: NDArray[Any], unknown: int, noticed: int) -> bool:
+    """Any cell that became known or unknown, or a share of cells that moved by more than `noticed`."""
+    known, was_known = now != unknown, before != unknown
+    if bool((known != was_known).any()):
+        return True
+    moved = np.abs(now.astype(np.int32) - before.astype(np.int32)) > noticed
+    return int(np.count_nonzero(moved & known)) > NOTICED_SHARE * int(np.count_nonzero(known))
 
 
 def _quantised_index(layer: NDArray[np.float32]) -> NDArray[np.uint8]:

@@ -153,7 +153,11 @@ class StereoInertialOdometry:
             return self._report(OdometryQuality.DEGRADED, "began again after being lost", tracks.number)
         if blind and not resting:
             return self._report_blind(tracks)
-        self._settle(tracks, resting)
+        try:
+            self._settle(tracks, resting)
+        except np.linalg.LinAlgError:
+            self._lost = True
+            return self._report(OdometryQuality.LOST, "the window has no solution", tracks.number)
         return self._report(*self._judge(tracks, inertia), tracks.number)
 
     def _settle(self, tracks: Tracks, resting: bool) -> None:

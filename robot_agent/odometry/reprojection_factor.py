@@ -176,6 +176,11 @@ def add_reprojections(
                     gradient,
                 )
         trace = own[0, 0] + own[1, 1] + own[2, 2]
+        if not trace > 0.0:  # behind every eye that saw it: it says nothing and stays where it is
+            elimination.inverse[row] = 0.0
+            elimination.gradient[row] = 0.0
+            elimination.offset_coupling[row] = 0.0
+            continue
         for a in range(3):
             own[a, a] += 1e-9 * trace
         elimination.inverse[row] = np.linalg.inv(own)

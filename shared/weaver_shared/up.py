@@ -52,9 +52,9 @@ def _start(supervisor: Supervisor, options: argparse.Namespace, *, rendezvous: s
     world = ["--world", options.world, "--seed", str(options.seed)]
     name = ["--robot", options.description]
     sim = ["--robot-id", options.robot_id, "--connect", rendezvous, "--listen", robot, "--stand"]
-    supervisor.add("the robot", ["weaver_shared.command_line", "sim", *sim, *world, *name], nice=-10)
-    supervisor.add("the renderer", ["sim_agent.render_process", *known, *world, *name], nice=-5)
-    supervisor.add("vision", ["weaver_shared.command_line", "robot", "--role", "vision", *known, *name], nice=-5)
+    supervisor.add("the robot", ["weaver_shared.command_line", "sim", *sim, *world, *name], nice=-5)
+    supervisor.add("the renderer", ["sim_agent.render_process", *known, *world, *name], nice=2)
+    supervisor.add("vision", ["weaver_shared.command_line", "robot", "--role", "vision", *known, *name], nice=2)
     if options.console:
         console = ["--host", HOST, "--port", str(options.port), "--listen", rendezvous, "--connect", robot]
         supervisor.add("the console", ["weaver_shared.command_line", "console", *console], nice=-5)

@@ -135,6 +135,7 @@ def _on_ground(ground: Ground, near: tuple[float, float]) -> np.ndarray:
 def test_a_person_walks_the_robot_to_two_clicked_waypoints_and_stops_it(product: Any, browser: Any, robot: Any) -> None:
     robot.wait_until(lambda _: len(robot.ground.tiles) > 3, 90.0, "there is no map")
     anna = Operator(browser, product.address, "anna")
+    time.sleep(15.0)  # the 3-D view of a machine without a graphics card fills slowly, and nothing on the page tells
     begun_at = np.array(robot.newest["tele/state"].position_in_world)
     anna.press("Take control")
     expect(anna.button("Release control")).to_be_visible(timeout=PATIENT)
@@ -142,7 +143,6 @@ def test_a_person_walks_the_robot_to_two_clicked_waypoints_and_stops_it(product:
     anna.press("Stand")
     robot.wait_until(lambda newest: newest["state/mode"].mode == "STAND", 30.0, "it does not stand")
 
-    time.sleep(5.0)  # the 3-D view of a machine without a graphics card fills slowly, and nothing on the page tells
     tiles = len(robot.ground.tiles)
     for ahead, aside in ((0.9, 0.1), (1.4, -0.1)):
         anna.click_ground(_on_ground(robot.ground, (begun_at[0] + ahead, begun_at[1] + aside)), begun_at)
@@ -211,6 +211,7 @@ def test_a_second_page_watches_may_not_command_and_may_stop(product: Any, browse
     anna.press("Take control")
     robot.wait_until(lambda newest: newest["state/lease"].holder == "anna", 15.0, "anna has no control")
     if robot.newest["state/mode"].stopped:
+        robot.wait_until(lambda newest: "release_stop" in newest["state/mode"].allowed, 30.0, "it does not settle")
         anna.press("Release stop")
         robot.wait_until(lambda newest: not newest["state/mode"].stopped, 15.0, "the stop is not released")
     anna.press("Stand")

@@ -219,4 +219,6 @@ def test_the_allowed_commands_are_the_ones_that_get_accepted(desk: CommandDesk, 
     ada.says(CommandName.START_MISSION)
     assert {"pause_mission", "clear_mission"} <= set(desk.allowed())
     ada.says(CommandName.STOP)
+    assert "release_stop" not in desk.allowed()
+    observe(desk, "READY")
     assert "release_stop" in desk.allowed()

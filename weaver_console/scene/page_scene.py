@@ -36,6 +36,9 @@ Array = NDArray[np.float64]
 LINES_PERIOD_NS = 120_000_000
 """Polygon, forces and look-ahead are drawn 8 times a second: in the browser lines cost more than all the rest."""
 
+THRIFTY_TERRAIN = 12
+"""Updates between new ground where the browser draws without a graphics card: each tile costs it a new shader."""
+
 ACCEPTANCE_RADIUS = 0.15
 CAMERA_FROM_ROBOT = np.array([-1.25, -0.85, 0.75])
 LOOK_FROM_ROBOT = np.array([0.35, 0.0, -0.05])
@@ -90,6 +93,7 @@ class PageScene:
         with contextlib.redirect_stdout(io.StringIO()):  # viser prints its address, which is not for people
             self._server = viser.ViserServer(host="127.0.0.1", port=free_port(), verbose=False)
         self.port: int = self._server.get_port()
+        self._updates = 0
         self.thrifty = False  # the browser draws without a graphics card
         self._set_stage()
 
@@ -117,7 +121,9 @@ class PageScene:
         with self._lock:
             wishes = self._wishes
         self._ground = record.ground
-        if shown.terrain.update(record.ground, wishes.layer):
+        self._updates += 1
+        hurried = wishes.layer != shown.terrain.legend.layer or not self.thrifty
+        if (hurried or self._updates % THRIFTY_TERRAIN == 0) and shown.terrain.update(record.ground, wishes.layer):
             self._on_legend(shown.terrain.legend)
         with self._server.atomic():
             self._update_robot(shown, record, wishes)
