@@ -30,6 +30,12 @@ FLAGS = [
     "--disable-component-update",
     "--disable-sync",
 ]
+WITHOUT_WEBGL = """
+const original = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+  return kind.startsWith("webgl") ? null : original.call(this, kind, ...rest);
+};
+"""
 ROBOT_ID = "browser-1"
 FIELD_OF_VIEW = np.deg2rad(75.0)  # viser's, vertical
 PATIENT = 30_000.0  # ms; a page drawn without a graphics card answers late
@@ -74,8 +80,10 @@ def _put(ground: Ground, tile: MapTile) -> None:
 class Operator:
     """A person at a page of their own; `name` is what the page calls them."""
 
-    def __init__(self, browser: Any, address: str, name: str) -> None:
+    def __init__(self, browser: Any, address: str, name: str, *, webgl: bool = True) -> None:
         self.context = browser.new_context(viewport={"width": 1440, "height": 900})
+        if not webgl:
+            self.context.add_init_script(WITHOUT_WEBGL)
         self.context.add_init_script(f"localStorage.setItem('weaver.operator', '{name}')")
         self.page = self.context.new_page()
         self.requested: list[str] = []
@@ -207,7 +215,8 @@ def _stop_while_walking(anna: Operator, robot: Any, last: Any) -> None:
 
 def test_a_second_page_watches_may_not_command_and_may_stop(product: Any, browser: Any, robot: Any) -> None:
     robot.wait_until(lambda newest: newest["state/mode"].mode, 30.0, "there is no robot")
-    anna, ben = Operator(browser, product.address, "anna"), Operator(browser, product.address, "ben")
+    anna = Operator(browser, product.address, "anna", webgl=False)
+    ben = Operator(browser, product.address, "ben", webgl=False)
     anna.press("Take control")
     robot.wait_until(lambda newest: newest["state/lease"].holder == "anna", 15.0, "anna has no control")
     if robot.newest["state/mode"].stopped:

@@ -1,12 +1,12 @@
 """The map keeps what it saw, knows what it did not see, and finds the worst ground under the feet."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
 from robot_agent.mapping import TerrainMap
-from robot_agent.mapping.tiles import FULL_SCALE, UNKNOWN, UNKNOWN_ELEVATION
+from robot_agent.mapping.tiles import FULL_SCALE, UNKNOWN, UNKNOWN_ELEVATION, worth_sending
 from weaver_shared.messages import OdometryEstimate, OdometryQuality
 
 SECOND = 1_000_000_000
@@ -125,11 +125,30 @@ def test_changed_tiles_carry_the_map_once():
     assert cells == 100 * 100
 
 
-def test_only_tiles_near_the_change_are_sent_again():
+def test_ground_that_looks_as_before_is_not_sent_again():
     terrain_map = map_of(flat)
-    terrain_map.changed_tiles(0)
+    assert terrain_map.changed_tiles(0)
     terrain_map.update(seen(flat, x=(0.3, 0.4), y=(0.3, 0.4), stamp_ns=SECOND), at())
-    assert {(tile.i, tile.j) for tile in terrain_map.changed_tiles(SECOND)} == {(0, 0)}
+    assert terrain_map.changed_tiles(SECOND) == []
+
+
+@pytest.mark.parametrize(
+    ("layer", "change", "sent"),
+    [("elevation_mm", 3, False), ("elevation_mm", 4, True), ("roughness", 10, False), ("step_height", 11, True)],
+)
+def test_a_tile_is_sent_again_when_it_differs_by_more_than_noise(layer, change, sent):
+    tile = map_of(flat).changed_tiles(0)[0]
+    values = getattr(tile, layer).copy()
+    values[values != (UNKNOWN_ELEVATION if layer == "elevation_mm" else UNKNOWN)] += change
+    assert worth_sending(replace(tile, **{layer: values}), tile) is sent
+
+
+def test_a_cell_that_becomes_known_is_always_sent():
+    tile = map_of(flat).changed_tiles(0)[0]
+    forgotten = tile.elevation_mm.copy()
+    forgotten[tuple(np.argwhere(forgotten != UNKNOWN_ELEVATION)[0])] = UNKNOWN_ELEVATION
+    assert worth_sending(tile, replace(tile, elevation_mm=forgotten))
+    assert worth_sending(tile, None)
 
 
 def test_features_do_not_depend_on_how_the_ground_came_in():
