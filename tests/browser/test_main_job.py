@@ -6,7 +6,7 @@ import re
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -77,11 +77,22 @@ def _put(ground: Ground, tile: MapTile) -> None:
     ground.put(tile)
 
 
+@pytest.fixture(autouse=True)
+def everybody_leaves() -> Iterator[None]:
+    """Close the pages a test leaves open, or their operators would hold the robot in the next one."""
+    yield
+    while Operator.present:
+        Operator.present.pop().close()
+
+
 class Operator:
     """A person at a page of their own; `name` is what the page calls them."""
 
+    present: ClassVar[list[Operator]] = []
+
     def __init__(self, browser: Any, address: str, name: str, *, webgl: bool = True) -> None:
         self.context = browser.new_context(viewport={"width": 1440, "height": 900})
+        Operator.present.append(self)
         if not webgl:
             self.context.add_init_script(WITHOUT_WEBGL)
         self.context.add_init_script(f"localStorage.setItem('weaver.operator', '{name}')")
@@ -156,6 +167,7 @@ def test_a_person_walks_the_robot_to_two_clicked_waypoints_and_stops_it(product:
         anna.click_ground(_on_ground(robot.ground, (begun_at[0] + ahead, begun_at[1] + aside)), begun_at)
     anna.press("Start mission")
     robot.wait_until(lambda newest: newest["state/mode"].mode == "WALK", 15.0, "it does not walk")
+    robot.wait_until(lambda newest: len(newest["state/mission"].waypoints) == 2, 5.0, "the mission is not told")
     first, last = robot.newest["state/mission"].waypoints
     assert np.hypot(first.x - begun_at[0] - 0.9, first.y - begun_at[1] - 0.1) < 0.25
     assert np.hypot(last.x - begun_at[0] - 1.4, last.y - begun_at[1] + 0.1) < 0.25
@@ -172,7 +184,6 @@ def test_a_person_walks_the_robot_to_two_clicked_waypoints_and_stops_it(product:
     assert {url.split("/")[2] for url in anna.requested if url.startswith(("http", "ws"))} == {
         product.address.split("/")[2]
     }
-    anna.close()
 
 
 def _override_and_release(anna: Operator, robot: Any) -> None:
@@ -234,5 +245,3 @@ def test_a_second_page_watches_may_not_command_and_may_stop(product: Any, browse
     robot.wait_until(lambda newest: newest["state/mode"].stopped, 15.0, "ben's stop does not stop it")
     expect(anna.page.get_by_role("status", name="Robot status")).to_contain_text("ESTOP", timeout=PATIENT)
     assert any(event.source == "ben" and "stop" in event.text for event in robot.events)
-    anna.close()
-    ben.close()
