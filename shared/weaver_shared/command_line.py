@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from importlib.metadata import EntryPoint, entry_points
 
 from weaver_shared.errors import WeaverError
 
 GROUP = "weaver.commands"
+
+# One thread for linear algebra: our matrices are small, and waiting threads spin on cores that other loops need.
+for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+    os.environ.setdefault(_variable, "1")
 
 
 def main(arguments: list[str] | None = None) -> int:
