@@ -3,7 +3,7 @@
 import numpy as np
 
 from robot_agent.body import JointTargets
-from sim_agent.sensors.inertial import interval_means
+from sim_agent.sensors.inertial import disturb, interval_means
 from sim_agent.servos import ServoBank
 from sim_agent.worlds import make_world
 from weaver_shared.robots import load_robot
@@ -15,5 +15,7 @@ def warm_up() -> None:
     bank = ServoBank(robot, 1e-3)
     bank.command(JointTargets(stamp_ns=0, position=joints, torque_limit=joints, torque_on=True))
     bank.torque(joints, joints, joints.copy())
-    interval_means(np.eye(3), np.eye(3), np.zeros(3), np.zeros(3), 1e-3)
+    sample, bias = np.zeros((2, 3)), np.zeros((2, 3))
+    interval_means(np.eye(3), np.eye(3), np.zeros(3), np.zeros(3), 1e-3, sample)
+    disturb(sample, bias, np.zeros((4, 3)), np.zeros(2), np.zeros(2))
     make_world("outdoor", 0).elevation(0.0, 0.0)

@@ -6,6 +6,7 @@ force (Mahony et al., TAC 2008, with the accelerometer's say reduced while it fe
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from robot_agent.odometry.imu_stream import usable
 from robot_agent.odometry.propagation import propagate
+from robot_agent.odometry.recent_samples import RecentSamples
 from robot_agent.odometry.start import levelled
 from weaver_shared.config.odometry import FailureConfig
 from weaver_shared.frames import GRAVITY
@@ -56,9 +58,9 @@ class StatePropagator:
     def __init__(self, imu: Imu, initial: Pose) -> None:
         self._body_from_imu = imu.body_from_imu
         self._imu_from_body = imu.body_from_imu.inverse()
+        self._rate_cross = -skew(self._imu_from_body.position)  # turns a rate into the speed of the body's origin
         self._failure = FailureConfig()
-        self._stamps = np.zeros(0, dtype=np.int64)
-        self._samples = np.zeros((0, 7))
+        self._recent = RecentSamples(round(MEMORY * imu.rate))
         self._world_from_imu = initial @ imu.body_from_imu
         self._velocity = np.zeros(3)  # of the IMU in world
         self._gyro_bias = np.zeros(3)
@@ -84,13 +86,13 @@ class StatePropagator:
         velocity = estimate.velocity_in_world + estimate.world_from_body.rotation @ np.cross(
             rate_in_body, self._body_from_imu.position
         )
-        since = self._samples[self._stamps > estimate.stamp_ns].copy()
-        if len(since):  # the first of them began before the picture was taken
-            since[0, 0] = min(
-                since[0, 0], (self._stamps[self._stamps > estimate.stamp_ns][0] - estimate.stamp_ns) * 1e-9
-            )
         rotation, position, self._velocity = propagate(
-            world_from_imu.rotation, world_from_imu.position, velocity, self._gyro_bias, self._accel_bias, since
+            world_from_imu.rotation,
+            world_from_imu.position,
+            velocity,
+            self._gyro_bias,
+            self._accel_bias,
+            self._recent.since(estimate.stamp_ns),
         )
         self._world_from_imu = Pose(rotation=rotation, position=position)
         self._corrected_ns = estimate.stamp_ns
@@ -110,7 +112,6 @@ class StatePropagator:
             strict=True,
         ):
             self._take(int(stamp), gyro, accel, usable_sample=bool(good))
-        self._stamps, self._samples = self._recent()
         return self._state()
 
     def _take(self, stamp: int, gyro: Array, accel: Array, *, usable_sample: bool) -> None:
@@ -123,9 +124,7 @@ class StatePropagator:
             return
         dt = min((stamp - self._now) * 1e-9, LONGEST_SAMPLE)
         self._now = stamp
-        sample = np.concatenate([[dt], gyro, accel])
-        self._stamps = np.append(self._stamps, stamp)
-        self._samples = np.vstack([self._samples, sample])
+        sample = self._recent.add(stamp, dt, gyro, accel)
         self._rate = gyro - self._gyro_bias
         if not self._levelled:
             self._level_at_once(accel)
@@ -136,16 +135,17 @@ class StatePropagator:
                 self._velocity,
                 self._gyro_bias,
                 self._accel_bias,
-                sample[None],
+                sample,
             )
             self._world_from_imu = Pose(rotation=rotation, position=position)
         else:
             self._turn_level(dt, accel)
-            self._velocity = self._velocity * np.exp(-dt / COAST)
+            self._velocity = self._velocity * math.exp(-dt / COAST)
             position = self._world_from_imu.position + self._velocity * dt
             self._world_from_imu = Pose(rotation=self._world_from_imu.rotation, position=position)
-        fade = np.exp(-dt / BLEND)
-        self._turn_left, self._way_left = self._turn_left * fade, self._way_left * fade
+        fade = math.exp(-dt / BLEND)
+        self._turn_left *= fade
+        self._way_left *= fade
 
     def _level_at_once(self, accel: Array) -> None:
         norm = float(np.linalg.norm(accel))
@@ -169,12 +169,6 @@ class StatePropagator:
             rotation = rotation_exp(gain * towards_up) @ rotation
         self._world_from_imu = Pose(rotation=rotation, position=self._world_from_imu.position)
 
-    def _recent(self) -> tuple[NDArray[np.int64], Array]:
-        if self._now is None:
-            return self._stamps, self._samples
-        keep = self._stamps > self._now - round(MEMORY * 1e9)
-        return self._stamps[keep], self._samples[keep]
-
     def _age(self) -> float:
         if self._corrected_ns is None or self._now is None:
             return float("inf")
@@ -190,7 +184,7 @@ class StatePropagator:
     def _state(self) -> NavigationState:
         imu = self._shown()
         body = imu @ self._imu_from_body
-        lever = imu.rotation @ (skew(self._rate) @ self._imu_from_body.position)
+        lever = imu.rotation @ (self._rate_cross @ self._rate)
         return NavigationState(
             stamp_ns=self._now if self._now is not None else 0,
             world_from_body=body,

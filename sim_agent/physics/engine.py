@@ -95,9 +95,9 @@ class Engine:
 
     def joints(self, position: Array, velocity: Array) -> None:
         """Fill positions (joints,) in rad and velocities in rad/s."""
-        for index, state in enumerate(pybullet.getJointStates(self._body, self._joints, physicsClientId=self._client)):
-            position[index] = state[0]
-            velocity[index] = state[1]
+        states = pybullet.getJointStates(self._body, self._joints, physicsClientId=self._client)
+        position[:] = [state[0] for state in states]
+        velocity[:] = [state[1] for state in states]
 
     def world_from_body(self) -> Pose:
         centre, xyzw = pybullet.getBasePositionAndOrientation(self._body, physicsClientId=self._client)

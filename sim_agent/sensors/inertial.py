@@ -27,13 +27,16 @@ class InertialSensor:
         self._imu = imu
         self._dt = 1.0 / imu.rate
         self._generator = generator
-        self._gyro_bias = generator.standard_normal(3) * imu.gyro_random_walk * np.sqrt(SETTLED_TIME)
-        self._accel_bias = generator.standard_normal(3) * imu.accel_random_walk * np.sqrt(SETTLED_TIME)
+        self._bias = np.empty((2, 3))
+        self._bias[0] = generator.standard_normal(3) * imu.gyro_random_walk * np.sqrt(SETTLED_TIME)
+        self._bias[1] = generator.standard_normal(3) * imu.accel_random_walk * np.sqrt(SETTLED_TIME)
+        root = np.sqrt(self._dt)
+        self._walk = np.array([imu.gyro_random_walk, imu.accel_random_walk]) * root
+        self._noise = np.array([imu.gyro_noise_density, imu.accel_noise_density]) / root
         self._rotation: Array | None = None
         self._velocity = np.zeros(3)
         self._stamps: list[int] = []
-        self._rates: list[Array] = []
-        self._forces: list[Array] = []
+        self._samples: list[Array] = []
 
     def begin(self, world_from_imu: Array, velocity_in_world: Array) -> None:
         """The state from which the first interval counts: rotation (3, 3) and velocity (3,) of the IMU's point."""
@@ -43,34 +46,32 @@ class InertialSensor:
         """End an interval at this state and keep its sample."""
         if self._rotation is None:
             raise RuntimeError("begin() gives the first interval its start")
-        rate, force = interval_means(self._rotation, world_from_imu, self._velocity, velocity_in_world, self._dt)
+        sample = np.empty((2, 3))
+        interval_means(self._rotation, world_from_imu, self._velocity, velocity_in_world, self._dt, sample)
         self.begin(world_from_imu, velocity_in_world)
-        imu, root = self._imu, np.sqrt(self._dt)
-        noise = self._generator.standard_normal((4, 3))
-        self._gyro_bias = self._gyro_bias + imu.gyro_random_walk * root * noise[0]
-        self._accel_bias = self._accel_bias + imu.accel_random_walk * root * noise[1]
+        disturb(sample, self._bias, self._generator.standard_normal((4, 3)), self._walk, self._noise)
         self._stamps.append(stamp_ns)
-        self._rates.append(rate + self._gyro_bias + imu.gyro_noise_density / root * noise[2])
-        self._forces.append(force + self._accel_bias + imu.accel_noise_density / root * noise[3])
+        self._samples.append(sample)
 
     def take(self) -> ImuBatch:
         """All samples since the last call."""
         if not self._stamps:
             return ImuBatch.empty()
+        samples = np.array(self._samples)
         batch = ImuBatch(
             stamp_ns=np.array(self._stamps, dtype=np.int64),
-            angular_velocity_in_imu=np.array(self._rates),
-            specific_force_in_imu=np.array(self._forces),
+            angular_velocity_in_imu=np.ascontiguousarray(samples[:, 0]),
+            specific_force_in_imu=np.ascontiguousarray(samples[:, 1]),
         )
-        self._stamps, self._rates, self._forces = [], [], []
+        self._stamps, self._samples = [], []
         return batch
 
 
 @njit(cache=True)
 def interval_means(
-    before: Array, after: Array, velocity_before: Array, velocity_after: Array, dt: float
-) -> tuple[Array, Array]:
-    """Mean angular rate and specific force in the IMU's frame between two states (rotations (3, 3), m/s in world)."""
+    before: Array, after: Array, velocity_before: Array, velocity_after: Array, dt: float, means: Array
+) -> None:
+    """Fill mean rate and specific force in the IMU's frame (2, 3) between two states (rotations (3, 3), m/s)."""
     acceleration = (velocity_after - velocity_before) / dt
     acceleration[2] += GRAVITY
     change = before.T @ after
@@ -93,4 +94,13 @@ def interval_means(
             ]
         )
         force = cosine * force - half_sine * across + (1.0 - cosine) * along * unit
-    return turn / dt, force
+    means[0], means[1] = turn / dt, force
+
+
+@njit(cache=True)
+def disturb(sample: Array, bias: Array, normal: Array, walk: Array, noise: Array) -> None:
+    """Let the biases (2, 3) drift and add them and white noise to a sample (2, 3); `normal` (4, 3) is standard."""
+    for sensor in range(2):
+        for axis in range(3):
+            bias[sensor, axis] += walk[sensor] * normal[sensor, axis]
+            sample[sensor, axis] += bias[sensor, axis] + noise[sensor] * normal[2 + sensor, axis]

@@ -25,7 +25,8 @@ def test_interval_means_agree_with_logarithm_and_exponential(
 ) -> None:
     start, dt = rotation_exp(attitude), 0.005
     end = start @ rotation_exp(turn)
-    rate, force = interval_means(start, end, before, after, dt)
+    rate, force = means = np.empty((2, 3))
+    interval_means(start, end, before, after, dt, means)
     assert np.allclose(rate * dt, rotation_log(start.T @ end), atol=1e-7)
     halfway = start @ rotation_exp(0.5 * turn)
     expected = halfway.T @ ((after - before) / dt + [0.0, 0.0, GRAVITY])

@@ -18,8 +18,9 @@ def joint_frames_in_body(robot: RobotDescription, joint_position: Array) -> Arra
     angles = np.asarray(joint_position, dtype=np.float64).reshape(legs, joints)
     frames = np.zeros((legs, joints + 1, 4, 4))
     frames[:, 0] = _hips(robot)
+    steps = _dh(robot.dh, angles)
     for index in range(joints):
-        frames[:, index + 1] = frames[:, index] @ _dh(robot.dh[index], angles[:, index])
+        np.matmul(frames[:, index], steps[:, index], out=frames[:, index + 1])
     return frames
 
 
@@ -39,14 +40,14 @@ def _hips(robot: RobotDescription) -> Array:
     return result
 
 
-def _dh(row: Array, angle: Array) -> Array:
-    """RotZ(theta + q) TransZ(d) TransX(r) RotX(alpha) for n angles, (n, 4, 4)."""
-    theta, d, r, alpha = row
-    ct, st = np.cos(theta + angle), np.sin(theta + angle)
+def _dh(rows: Array, angles: Array) -> Array:
+    """RotZ(theta + q) TransZ(d) TransX(r) RotX(alpha) of `rows` (joints, 4) at `angles` (legs, joints)."""
+    theta, d, r, alpha = rows.T
+    ct, st = np.cos(theta + angles), np.sin(theta + angles)
     ca, sa = np.cos(alpha), np.sin(alpha)
-    result = np.zeros((angle.size, 4, 4))
-    result[:, 0, 0], result[:, 0, 1], result[:, 0, 2], result[:, 0, 3] = ct, -st * ca, st * sa, r * ct
-    result[:, 1, 0], result[:, 1, 1], result[:, 1, 2], result[:, 1, 3] = st, ct * ca, -ct * sa, r * st
-    result[:, 2, 1], result[:, 2, 2], result[:, 2, 3] = sa, ca, d
-    result[:, 3, 3] = 1.0
+    result = np.zeros((*angles.shape, 4, 4))
+    result[..., 0, 0], result[..., 0, 1], result[..., 0, 2], result[..., 0, 3] = ct, -st * ca, st * sa, r * ct
+    result[..., 1, 0], result[..., 1, 1], result[..., 1, 2], result[..., 1, 3] = st, ct * ca, -ct * sa, r * st
+    result[..., 2, 1], result[..., 2, 2], result[..., 2, 3] = sa, ca, d
+    result[..., 3, 3] = 1.0
     return result
