@@ -16,19 +16,21 @@ Array = NDArray[np.float64]
 
 @kernel
 def leg_frames(
-    dh: Array, hip_in_body: Array, hip_yaw: float, joint_position: Array, origins: Array, axes: Array
+    dh: Array, hip_in_body: Array, hip_axes: Array, joint_position: Array, origins: Array, axes: Array
 ) -> None:
     """Fill `origins` (n + 1, 3), joint origins and then the foot, and `axes` (n, 3), joint axes; both in body.
 
-    `dh` is (n, 4), `joint_position` (n,) rad, `hip_in_body` (3,) m.
+    `dh` is (n, 4), `joint_position` (n,) rad, `hip_in_body` (3,) m. `hip_axes` (3, 3) has the chain's first axes as
+    columns, in body; those of a mirrored leg are left-handed, and its joints turn the other way about theirs.
     """
-    xx, xy, xz = cos(hip_yaw), sin(hip_yaw), 0.0
-    yx, yy, yz = -xy, xx, 0.0
-    zx, zy, zz = 0.0, 0.0, 1.0
+    xx, xy, xz = hip_axes[0, 0], hip_axes[1, 0], hip_axes[2, 0]
+    yx, yy, yz = hip_axes[0, 1], hip_axes[1, 1], hip_axes[2, 1]
+    zx, zy, zz = hip_axes[0, 2], hip_axes[1, 2], hip_axes[2, 2]
+    side = zx * (xy * yz - xz * yy) + zy * (xz * yx - xx * yz) + zz * (xx * yy - xy * yx)
     px, py, pz = hip_in_body[0], hip_in_body[1], hip_in_body[2]
     for i in range(dh.shape[0]):
         origins[i, 0], origins[i, 1], origins[i, 2] = px, py, pz
-        axes[i, 0], axes[i, 1], axes[i, 2] = zx, zy, zz
+        axes[i, 0], axes[i, 1], axes[i, 2] = side * zx, side * zy, side * zz
         c, s = cos(dh[i, 0] + joint_position[i]), sin(dh[i, 0] + joint_position[i])
         ca, sa = cos(dh[i, 3]), sin(dh[i, 3])
         nx, ny, nz = c * xx + s * yx, c * xy + s * yy, c * xz + s * yz
@@ -43,10 +45,10 @@ def leg_frames(
 
 
 @kernel
-def all_leg_frames(dh: Array, hips: Array, hip_yaws: Array, joint_position: Array, origins: Array, axes: Array) -> None:
+def all_leg_frames(dh: Array, hips: Array, hip_axes: Array, joint_position: Array, origins: Array, axes: Array) -> None:
     """`leg_frames` of every leg: `joint_position` (legs, n), `origins` (legs, n + 1, 3), `axes` (legs, n, 3)."""
     for leg in range(hips.shape[0]):
-        leg_frames(dh, hips[leg], hip_yaws[leg], joint_position[leg], origins[leg], axes[leg])
+        leg_frames(dh, hips[leg], hip_axes[leg], joint_position[leg], origins[leg], axes[leg])
 
 
 @kernel

@@ -23,13 +23,19 @@ STRAIGHT = 0.9998
 
 @kernel
 def solve_closed_form(
-    dh: Array, limits: Array, hip_in_body: Array, hip_yaw: float, foot_in_body: Array, direction: Array, solution: Array
+    dh: Array,
+    limits: Array,
+    hip_in_body: Array,
+    hip_axes: Array,
+    foot_in_body: Array,
+    direction: Array,
+    solution: Array,
 ) -> bool:
     """Joints (5,) that put the foot exactly at `foot_in_body` (3,), last link along `direction` (3,) or nearest to it.
 
     False, with `solution` undefined, where the plane is not defined or no tilt keeps the limits.
     """
-    c, s = cos(hip_yaw), sin(hip_yaw)
+    c, s = hip_axes[0, 0], hip_axes[1, 0]
     fx, fy, rz = foot_in_body[0] - hip_in_body[0], foot_in_body[1] - hip_in_body[1], foot_in_body[2] - hip_in_body[2]
     rx, ry = c * fx + s * fy, -s * fx + c * fy
     dx, dy, dz = c * direction[0] + s * direction[1], -s * direction[0] + c * direction[1], direction[2]

@@ -21,7 +21,7 @@ def solve_damped(
     dh: Array,
     limits: Array,
     hip_in_body: Array,
-    hip_yaw: float,
+    hip_axes: Array,
     foot_in_body: Array,
     direction: Array,
     tolerance: float,
@@ -38,7 +38,7 @@ def solve_damped(
     best, best_solution = 1e9, solution.copy()
     damping = (DAMPING * reach) ** 2
     for _ in range(ITERATIONS):
-        leg_frames(dh, hip_in_body, hip_yaw, solution, origins, axes)
+        leg_frames(dh, hip_in_body, hip_axes, solution, origins, axes)
         for k in range(3):
             error[k] = foot_in_body[k] - origins[n, k]
         left = sqrt(error[0] ** 2 + error[1] ** 2 + error[2] ** 2)

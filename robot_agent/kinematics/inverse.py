@@ -19,7 +19,7 @@ def solve_leg(
     limits: Array,
     yaw_roll_pitch: bool,
     hip_in_body: Array,
-    hip_yaw: float,
+    hip_axes: Array,
     foot_in_body: Array,
     direction: Array,
     previous: Array,
@@ -33,10 +33,10 @@ def solve_leg(
         if not (np.isfinite(foot_in_body[k]) and np.isfinite(direction[k])):
             solution[:] = previous
             return np.inf
-    if yaw_roll_pitch and solve_closed_form(dh, limits, hip_in_body, hip_yaw, foot_in_body, direction, solution):
+    if yaw_roll_pitch and solve_closed_form(dh, limits, hip_in_body, hip_axes, foot_in_body, direction, solution):
         return 0.0
     solution[:] = previous
-    return solve_damped(dh, limits, hip_in_body, hip_yaw, foot_in_body, direction, TOLERANCE, solution)
+    return solve_damped(dh, limits, hip_in_body, hip_axes, foot_in_body, direction, TOLERANCE, solution)
 
 
 @kernel
@@ -45,7 +45,7 @@ def solve_legs(
     limits: Array,
     yaw_roll_pitch: bool,
     hips: Array,
-    hip_yaws: Array,
+    hip_axes: Array,
     feet_in_body: Array,
     direction: Array,
     previous: Array,
@@ -59,7 +59,7 @@ def solve_legs(
             limits,
             yaw_roll_pitch,
             hips[leg],
-            hip_yaws[leg],
+            hip_axes[leg],
             feet_in_body[leg],
             direction,
             previous[leg],

@@ -22,7 +22,7 @@ class LegModel:
     dh: Array  # (n, 4) theta, d, r, alpha
     limits: Array  # (n, 2) rad
     hips: Array  # (legs, 3) in body, m
-    hip_yaws: Array  # (legs,) rad
+    hip_axes: Array  # (legs, 3, 3) in body, columns are the axes a chain begins with
     link_mass: Array  # (n,) kg
     speed_limit: Array  # (n,) rad/s
     servo_stiffness: Array  # (n,) N m/rad of the position loop
@@ -54,12 +54,12 @@ class LegModel:
             dh=robot.dh,
             limits=robot.joint_limits,
             hips=robot.hips_in_body,
-            hip_yaws=robot.hip_yaws,
+            hip_axes=robot.hip_axes,
             link_mass=np.array([joint.mass for joint in robot.joints]),
             speed_limit=np.array([speed_fraction * s.no_load_speed for s in servos]),
             servo_stiffness=np.array(stiffness),
             servo_lag=np.array(damping) / np.array(stiffness),
-            yaw_roll_pitch=is_yaw_roll_pitch(robot.dh),
+            yaw_roll_pitch=is_yaw_roll_pitch(robot.dh) and not any(leg.hip_roll or leg.mirrored for leg in robot.legs),
         )
 
 

@@ -77,7 +77,7 @@ class LegSenses:
     def measure(self) -> None:
         """Frames and centre of mass from the joint angles."""
         model = self._model
-        all_leg_frames(model.dh, model.hips, model.hip_yaws, self.joint_position, self.origins, self.axes)
+        all_leg_frames(model.dh, model.hips, model.hip_axes, self.joint_position, self.origins, self.axes)
         centre_of_mass(self.origins, model.link_mass, self._trunk_mass, self._trunk_centre, self.centre_of_mass)
 
 

@@ -172,7 +172,7 @@ class Walker:
             model.limits,
             model.yaw_roll_pitch,
             model.hips,
-            model.hip_yaws,
+            model.hip_axes,
             feet,
             direction,
             self._previous,

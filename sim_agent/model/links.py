@@ -14,6 +14,9 @@ Array = NDArray[np.float64]
 RADII = (0.024, 0.022, 0.020, 0.014)
 """Capsule radii from the first link with a length to the foot (m, chosen after the servos' cases)."""
 
+LEG_LENGTH = 0.34
+"""Leg that the radii are meant for (m); those of other robots are in proportion."""
+
 KNEE_GAP = 0.35
 """Share of the first pitching link left without collision, so that a sitting robot's hips may touch the ground."""
 
@@ -25,7 +28,8 @@ HUB = 0.022
 class Link:
     """One link of every leg, in its own frame: origin on its joint's axis, z along the axis.
 
-    `end` is where the next joint (or the foot) sits; `next_rotation` turns the next DH frame into this one.
+    `end` is where the next joint (or the foot) sits; `next_rotation` turns the next DH frame into this one. It is a
+    rotation about x, so that of a mirrored leg is its inverse.
     """
 
     index: int
@@ -54,6 +58,7 @@ class Link:
 def leg_links(robot: RobotDescription) -> tuple[Link, ...]:
     """The links of one leg, hip first; all legs share them."""
     lengths = [float(np.hypot(joint.d, joint.r)) for joint in robot.joints]
+    size = sum(lengths) / LEG_LENGTH
     with_length = [index for index, length in enumerate(lengths) if length > 0.0]
     pitching = [index for index in with_length if robot.joints[index].r > 0.0]
     links = []
@@ -67,7 +72,7 @@ def leg_links(robot: RobotDescription) -> tuple[Link, ...]:
                 mass=joint.mass,
                 end=np.array([joint.r, 0.0, joint.d]),
                 next_rotation=np.array([[1.0, 0.0, 0.0], [0.0, ca, -sa], [0.0, sa, ca]]),
-                radius=RADII[min(order, len(RADII) - 1)] if index != len(robot.joints) - 1 else RADII[-1],
+                radius=size * (RADII[min(order, len(RADII) - 1)] if index != len(robot.joints) - 1 else RADII[-1]),
                 is_foot=index == len(robot.joints) - 1,
                 collides=index in pitching,
                 collision_begin=KNEE_GAP if pitching and index == pitching[0] else 0.0,
@@ -78,11 +83,12 @@ def leg_links(robot: RobotDescription) -> tuple[Link, ...]:
 
 def link_poses(robot: RobotDescription, links: tuple[Link, ...], frames_in_body: Array) -> Array:
     """Link frames in body (legs, joints, 4, 4) from the DH frames (legs, joints + 1, 4, 4) of forward kinematics."""
-    end_from_link = np.zeros((len(links), 4, 4))
-    for link in links:
-        rotation = link.next_rotation.T
-        end_from_link[link.index, :3, :3] = rotation
-        end_from_link[link.index, :3, 3] = -rotation @ link.end
-        end_from_link[link.index, 3, 3] = 1.0
+    end_from_link = np.zeros((robot.leg_count, len(links), 4, 4))
+    for leg, side in enumerate(robot.sides):
+        for link in links:
+            rotation = (link.next_rotation if side > 0.0 else link.next_rotation.T).T
+            end_from_link[leg, link.index, :3, :3] = rotation
+            end_from_link[leg, link.index, :3, 3] = -rotation @ link.end
+            end_from_link[leg, link.index, 3, 3] = 1.0
     poses: Array = frames_in_body[:, 1:] @ end_from_link
     return poses

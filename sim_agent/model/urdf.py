@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from sim_agent.model.links import Link, leg_links
 from weaver_shared.robots import RobotDescription
-from weaver_shared.transforms import rotation_z, rpy_from_rotation
+from weaver_shared.transforms import rotation_x, rotation_z, rpy_from_rotation
 
 Array = NDArray[np.float64]
 
@@ -21,14 +21,15 @@ def robot_urdf(robot: RobotDescription) -> str:
     links = leg_links(robot)
     for leg in robot.legs:
         parent = "trunk"
-        origin, rotation = np.asarray(leg.hip_in_body), rotation_z(leg.hip_yaw)
+        side = -1.0 if leg.mirrored else 1.0
+        origin, rotation = np.asarray(leg.hip_in_body), rotation_z(leg.hip_yaw) @ rotation_x(leg.hip_roll)
         for link, joint in zip(links, robot.joints, strict=True):
             name = f"{leg.name}_{joint.name}"
             element = Xml.SubElement(root, "joint", name=name, type="revolute")
             Xml.SubElement(element, "parent", link=parent)
             Xml.SubElement(element, "child", link=f"{name}_link")
-            _origin(element, origin, fixed_axis_angles(rotation @ rotation_z(joint.theta)))
-            Xml.SubElement(element, "axis", xyz="0 0 1")
+            _origin(element, origin, fixed_axis_angles(rotation @ rotation_z(side * joint.theta)))
+            Xml.SubElement(element, "axis", xyz="0 0 -1" if leg.mirrored else "0 0 1")
             servo = robot.servos[joint.servo]
             Xml.SubElement(
                 element,
@@ -39,7 +40,8 @@ def robot_urdf(robot: RobotDescription) -> str:
                 velocity=f"{servo.no_load_speed}",
             )
             _link(root, f"{name}_link", link, robot.foot_radius)
-            parent, origin, rotation = f"{name}_link", link.end, link.next_rotation
+            parent, origin = f"{name}_link", link.end
+            rotation = link.next_rotation.T if leg.mirrored else link.next_rotation
     Xml.indent(root)  # Bullet reads lines of limited length
     return Xml.tostring(root, encoding="unicode")
 

@@ -33,7 +33,7 @@ def angles_at(fractions):
 
 def frames(leg, angles):
     origins, axes = np.zeros((6, 3)), np.zeros((5, 3))
-    leg_frames(MODEL.dh, MODEL.hips[leg], MODEL.hip_yaws[leg], np.asarray(angles, dtype=float), origins, axes)
+    leg_frames(MODEL.dh, MODEL.hips[leg], MODEL.hip_axes[leg], np.asarray(angles, dtype=float), origins, axes)
     return origins, axes
 
 
@@ -47,7 +47,7 @@ def test_the_shipped_leg_has_a_closed_form():
 @given(st.lists(st.floats(-2.0, 2.0), min_size=30, max_size=30))
 def test_the_kernel_agrees_with_the_shared_forward_kinematics(angles):
     origins, axes = np.zeros((6, 6, 3)), np.zeros((6, 5, 3))
-    all_leg_frames(MODEL.dh, MODEL.hips, MODEL.hip_yaws, np.array(angles).reshape(6, 5), origins, axes)
+    all_leg_frames(MODEL.dh, MODEL.hips, MODEL.hip_axes, np.array(angles).reshape(6, 5), origins, axes)
     reference = joint_frames_in_body(ROBOT, np.array(angles))
     np.testing.assert_allclose(origins, reference[:, :, :3, 3], atol=1e-12)
     np.testing.assert_allclose(axes, reference[:, :-1, :3, 2], atol=1e-12)
@@ -81,7 +81,7 @@ def test_inverse_after_forward_is_the_identity_on_feet(leg, fractions):
     direction = (origins[5] - origins[4]) / ROBOT.dh[4, 2]
     solution = np.zeros(5)
     left = solve_leg(
-        MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_yaws[leg], origins[5].copy(), direction,
+        MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_axes[leg], origins[5].copy(), direction,
         angles + 0.05, solution,
     )  # fmt: skip
     reached, _ = frames(leg, solution)
@@ -97,7 +97,7 @@ def test_near_the_stance_the_last_link_points_where_it_should(leg, dx, dy, dz, t
     direction = np.array([np.sin(tilt), 0.0, -np.cos(tilt)])
     solution = np.zeros(5)
     solve_leg(
-        MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_yaws[leg], foot, direction, np.zeros(5), solution
+        MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_axes[leg], foot, direction, np.zeros(5), solution
     )
     origins, _ = frames(leg, solution)
     np.testing.assert_allclose(origins[5], foot, atol=1e-9)
@@ -111,7 +111,7 @@ def test_standing_feet_carry_a_vertical_last_link():
     for leg in range(6):
         solution = np.zeros(5)
         foot = ROBOT.stance_in_body[leg]
-        solve_leg(MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_yaws[leg], foot, DOWN, np.zeros(5), solution)
+        solve_leg(MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_axes[leg], foot, DOWN, np.zeros(5), solution)
         origins, _ = frames(leg, solution)
         np.testing.assert_allclose((origins[5] - origins[4]) / ROBOT.dh[4, 2], DOWN, atol=1e-9)
 
@@ -126,7 +126,7 @@ def test_damped_least_squares_finds_the_same_feet_without_the_closed_form(leg, f
     direction = (origins[5] - origins[4]) / ROBOT.dh[4, 2]
     solution = np.clip(angles + 0.05, MODEL.limits[:, 0], MODEL.limits[:, 1])
     left = solve_damped(
-        MODEL.dh, MODEL.limits, MODEL.hips[leg], MODEL.hip_yaws[leg], origins[5].copy(), direction, 1e-6, solution
+        MODEL.dh, MODEL.limits, MODEL.hips[leg], MODEL.hip_axes[leg], origins[5].copy(), direction, 1e-6, solution
     )
     assert left < 1e-4
     np.testing.assert_allclose(frames(leg, solution)[0][5], origins[5], atol=1e-4)
@@ -137,7 +137,7 @@ def test_a_foot_out_of_reach_keeps_the_limits_and_comes_as_near_as_it_says(leg, 
     foot = np.array([x, y, z])
     solution = np.zeros(5)
     left = solve_leg(
-        MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_yaws[leg], foot, DOWN, np.zeros(5), solution
+        MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_axes[leg], foot, DOWN, np.zeros(5), solution
     )
     assert (solution >= MODEL.limits[:, 0] - 1e-12).all()
     assert (solution <= MODEL.limits[:, 1] + 1e-12).all()
@@ -148,7 +148,7 @@ def test_a_foot_out_of_reach_keeps_the_limits_and_comes_as_near_as_it_says(leg, 
 def test_a_foot_that_is_no_place_leaves_the_joints_where_they_were(bad):
     previous, solution = np.full(5, 0.1), np.zeros(5)
     foot = np.array([0.3, bad, -0.1])
-    left = solve_leg(MODEL.dh, MODEL.limits, True, MODEL.hips[0], MODEL.hip_yaws[0], foot, DOWN, previous, solution)
+    left = solve_leg(MODEL.dh, MODEL.limits, True, MODEL.hips[0], MODEL.hip_axes[0], foot, DOWN, previous, solution)
     assert left == np.inf
     np.testing.assert_array_equal(solution, previous)
 
@@ -159,7 +159,7 @@ def test_torques_in_balance_with_a_ground_force_give_that_force_back(leg, fracti
     if not in_reach(angles[0]):
         return
     origins, axes = np.zeros((6, 6, 3)), np.zeros((6, 5, 3))
-    all_leg_frames(MODEL.dh, MODEL.hips, MODEL.hip_yaws, angles, origins, axes)
+    all_leg_frames(MODEL.dh, MODEL.hips, MODEL.hip_axes, angles, origins, axes)
     jacobian, own = np.zeros((3, 5)), np.zeros(5)
     foot_jacobian(origins[leg], axes[leg], jacobian)
     if np.linalg.svd(jacobian, compute_uv=False)[-1] < 0.05:

@@ -109,7 +109,7 @@ def test_the_margin_is_the_distance_to_the_nearest_edge():
 def test_the_centre_of_mass_is_that_of_all_parts():
     model = LegModel.of_robot(ROBOT)
     origins, axes, centre = np.zeros((6, 6, 3)), np.zeros((6, 5, 3)), np.zeros(3)
-    all_leg_frames(model.dh, model.hips, model.hip_yaws, np.zeros((6, 5)), origins, axes)
+    all_leg_frames(model.dh, model.hips, model.hip_axes, np.zeros((6, 5)), origins, axes)
     trunk = np.array(ROBOT.body.centre_of_mass_in_body)
     centre_of_mass(origins, model.link_mass, ROBOT.body.mass, trunk, centre)
     middles = 0.5 * (origins[:, :-1] + origins[:, 1:])

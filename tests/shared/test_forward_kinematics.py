@@ -80,3 +80,20 @@ def test_positive_yaw_turns_the_leg_to_the_left() -> None:
     bearing = feet_in_body(WEAVER, angles) - WEAVER.hips_in_body
     turned = np.arctan2(bearing[:, 1], bearing[:, 0])
     assert_allclose(turned, WEAVER.hip_yaws + 0.3, atol=1e-12)
+
+
+@given(angles=angles_of(WEAVER))
+def test_a_mirrored_leg_moves_as_the_mirror_image(angles: np.ndarray) -> None:
+    content = WEAVER.model_dump()
+    content["legs"] = list(content["legs"])
+    for right, left in ((0, 5), (1, 4), (2, 3)):
+        x, y, z = content["legs"][right]["hip_in_body"]
+        yaw = content["legs"][right]["hip_yaw"]
+        content["legs"][right] |= {"hip_roll": 0.4}
+        content["legs"][left] |= {"hip_in_body": (x, -y, z), "hip_yaw": -yaw, "hip_roll": -0.4, "mirrored": True}
+    robot = RobotDescription.model_validate(content)
+    same = angles.reshape(6, 5)
+    same[3:] = same[2::-1]
+    frames = joint_frames_in_body(robot, same)
+    assert_allclose(frames[3:, :, :3, 3], frames[2::-1, :, :3, 3] * [1.0, -1.0, 1.0], atol=1e-12)
+    assert_allclose(np.linalg.det(frames[..., :3, :3]), 1.0, atol=1e-12)

@@ -57,6 +57,8 @@ def test_urdf_puts_links_where_forward_kinematics_does(robot: RobotDescription, 
         states = pybullet.getLinkStates(body, indices, computeForwardKinematics=True, physicsClientId=client)
         ours = link_poses(robot, leg_links(robot), joint_frames_in_body(robot, angles)).reshape(-1, 4, 4)
         assert np.allclose([state[4] for state in states], ours[:, :3, 3], atol=1e-6)
+        drawn = [np.array(pybullet.getMatrixFromQuaternion(state[5])).reshape(3, 3) for state in states]
+        assert np.allclose(drawn, ours[:, :3, :3], atol=1e-6)
 
 
 @given(st.floats(-3.1, 3.1), st.sampled_from([-np.pi / 2, np.pi / 2, 0.3, -1.2]), st.floats(-3.1, 3.1))

@@ -72,7 +72,7 @@ def _step(
     angles, hip = np.zeros(n + 1), np.zeros(3)
     origins, axes = np.empty((n + 2, 3)), np.empty((n + 1, 3))
     angles[1:] = position
-    leg_frames(dh, hip, 0.0, angles, origins, axes)
+    leg_frames(dh, hip, np.eye(3), angles, origins, axes)
     jacobian, descent = np.empty((3, n)), np.zeros(n)
     for i in range(n):
         arm, axis = origins[n + 1] - origins[i + 1], axes[i + 1]
@@ -99,7 +99,7 @@ def _step(
             rate[i] = min(max(rate[i], -max_rate), max_rate)
         position[i] = min(max(position[i] + rate[i] * dt, limits[i, 0]), limits[i, 1])
     angles[1:] = position
-    leg_frames(dh, hip, 0.0, angles, origins, axes)
+    leg_frames(dh, hip, np.eye(3), angles, origins, axes)
     nearest = 1.0
     for i in range(n):
         nearest = min(nearest, min(position[i] - limits[i, 0], limits[i, 1] - position[i]) / (0.5 * extent[i]))

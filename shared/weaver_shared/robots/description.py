@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from weaver_shared.errors import ConfigurationError
-from weaver_shared.transforms import Pose, rotation_y
+from weaver_shared.transforms import Pose, rotation_x, rotation_y, rotation_z
 
 Vector3 = tuple[float, float, float]
 Positive = Annotated[float, Field(gt=0.0)]
@@ -71,11 +71,17 @@ class Joint(_Model):
 
 
 class Leg(_Model):
-    """Where a leg's chain begins on the body (m, rad) and where its foot stands (m)."""
+    """Where a leg's chain begins on the body (m, rad) and where its foot stands (m).
+
+    The chain's first axes are the body's, turned by `hip_yaw` about z and then by `hip_roll` about their own x. A
+    mirrored leg is the mirror image through their x-z plane: the same joint angles are the mirrored posture.
+    """
 
     name: str
     hip_in_body: Vector3
     hip_yaw: float
+    hip_roll: float = 0.0
+    mirrored: bool = False
     stance_in_body: tuple[float, float]
 
 
@@ -201,6 +207,18 @@ class RobotDescription(_Model):
     @cached_property
     def hip_yaws(self) -> NDArray[np.float64]:
         return np.array([leg.hip_yaw for leg in self.legs])
+
+    @cached_property
+    def hip_axes(self) -> NDArray[np.float64]:
+        """Axes a chain begins with as columns, in body, (legs, 3, 3); left-handed where a leg is mirrored."""
+        turned = np.array([rotation_z(leg.hip_yaw) @ rotation_x(leg.hip_roll) for leg in self.legs])
+        turned[:, :, 1] *= self.sides[:, None]
+        return turned
+
+    @cached_property
+    def sides(self) -> NDArray[np.float64]:
+        """-1 for mirrored legs and 1 for the others, (legs,)."""
+        return np.array([-1.0 if leg.mirrored else 1.0 for leg in self.legs])
 
     @cached_property
     def stance_in_body(self) -> NDArray[np.float64]:

@@ -12,7 +12,8 @@ def joint_frames_in_body(robot: RobotDescription, joint_position: Array) -> Arra
     """Frames along every leg as homogeneous matrices, (legs, joints_per_leg + 1, 4, 4).
 
     Entry 0 is the hip; entry i is the frame after joint i, so the last one is the foot. `joint_position` is
-    (joint_count,) or (legs, joints_per_leg) in rad.
+    (joint_count,) or (legs, joints_per_leg) in rad. All frames are right-handed: those of a mirrored leg have y turned
+    round, and their joints turn about -z.
     """
     legs, joints = robot.leg_count, robot.joints_per_leg
     angles = np.asarray(joint_position, dtype=np.float64).reshape(legs, joints)
@@ -21,6 +22,7 @@ def joint_frames_in_body(robot: RobotDescription, joint_position: Array) -> Arra
     steps = _dh(robot.dh, angles)
     for index in range(joints):
         np.matmul(frames[:, index], steps[:, index], out=frames[:, index + 1])
+    frames[:, :, :3, 1] *= robot.sides[:, None, None]
     return frames
 
 
@@ -31,12 +33,10 @@ def feet_in_body(robot: RobotDescription, joint_position: Array) -> Array:
 
 
 def _hips(robot: RobotDescription) -> Array:
-    cosine, sine = np.cos(robot.hip_yaws), np.sin(robot.hip_yaws)
     result = np.zeros((robot.leg_count, 4, 4))
-    result[:, 0, 0], result[:, 0, 1] = cosine, -sine
-    result[:, 1, 0], result[:, 1, 1] = sine, cosine
-    result[:, 2, 2] = result[:, 3, 3] = 1.0
+    result[:, :3, :3] = robot.hip_axes
     result[:, :3, 3] = robot.hips_in_body
+    result[:, 3, 3] = 1.0
     return result
 
 
