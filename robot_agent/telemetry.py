@@ -15,6 +15,7 @@ from weaver_shared.messages import (
     GaitState,
     Health,
     Heartbeat,
+    LocomotionState,
     LoopTiming,
     ModeState,
     OdometryEstimate,
@@ -91,6 +92,8 @@ class Telemetry:
             self._publish(topics.STATE, _robot_state(self._robot, tick, sensed))
         if self._due(topics.GAIT):
             self._publish(topics.GAIT, _gait_state(tick, desk.orders().gait))
+        if self._due(topics.LOCOMOTION):
+            self._publish(topics.LOCOMOTION, _locomotion_state(tick))
         if self._due(topics.ADAPTATION):
             self._publish(topics.ADAPTATION, tick.report)
         if self._due(topics.POWER):
@@ -168,6 +171,19 @@ def _gait_state(tick: WalkTick, gait: str) -> GaitState:
         parameters_frequency=applied.stride_frequency,
         parameters_height=applied.stride_height,
         parameters_stiffness=applied.virtual_stiffness,
+    )
+
+
+def _locomotion_state(tick: WalkTick) -> LocomotionState:
+    walk = tick.walk
+    return LocomotionState(
+        stamp_ns=tick.stamp_ns,
+        posture=walk.posture,
+        stability=walk.stability,
+        stability_margin=walk.stability_margin,
+        energy_margin=walk.energy_margin,
+        ground_plane=walk.ground_plane,
+        ground_residual=walk.ground_residual,
     )
 
 

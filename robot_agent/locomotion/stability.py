@@ -31,35 +31,47 @@ def static_margin(feet_in_body: Array, standing: NDArray[np.bool_], centre: Arra
 
     With fewer than three feet on the ground there is no polygon: minus the distance to the nearest line or foot.
     """
-    legs = feet_in_body.shape[0]
-    x, y = np.empty(legs), np.empty(legs)
-    n = 0
-    for leg in range(legs):
-        if standing[leg]:
-            height = (feet_in_body[leg, 2] - centre[2]) / up[2]
-            x[n] = feet_in_body[leg, 0] - centre[0] - height * up[0]
-            y[n] = feet_in_body[leg, 1] - centre[1] - height * up[1]
-            n += 1
+    beside = np.empty((feet_in_body.shape[0], 3))
+    n = seen_along_gravity(feet_in_body, standing, centre, up, beside)
     if n == 0:
         return -1.0
-    margin, edges = np.inf, 0
-    nearest = np.inf
+    margin, edges, nearest = np.inf, 0, np.inf
     for i in range(n):
-        nearest = min(nearest, sqrt(x[i] ** 2 + y[i] ** 2))
+        nearest = min(nearest, sqrt(beside[i, 0] ** 2 + beside[i, 1] ** 2))
         for j in range(n):
-            if i == j:
-                continue
-            ex, ey = x[j] - x[i], y[j] - y[i]
-            length = sqrt(ex * ex + ey * ey)
-            if length < 1e-9:
-                continue
-            inside = True
-            for k in range(n):
-                if ex * (y[k] - y[i]) - ey * (x[k] - x[i]) < -1e-9:
-                    inside = False
-            if inside:
+            if is_support_edge(beside, n, i, j):
+                ex, ey = beside[j, 0] - beside[i, 0], beside[j, 1] - beside[i, 1]
                 edges += 1
-                margin = min(margin, (ey * x[i] - ex * y[i]) / length)
+                margin = min(margin, (ey * beside[i, 0] - ex * beside[i, 1]) / sqrt(ex * ex + ey * ey))
     if n < 3 or edges < 3:
         return -nearest
     return margin
+
+
+@kernel
+def seen_along_gravity(
+    feet_in_body: Array, standing: NDArray[np.bool_], centre: Array, up: Array, beside: Array
+) -> int:
+    """Fill rows of `beside` (legs, 3): x and y of the standing feet from the centre of mass, sheared so that gravity
+    falls along z, and the leg's number. Returns how many stand."""
+    n = 0
+    for leg in range(feet_in_body.shape[0]):
+        if standing[leg]:
+            height = (feet_in_body[leg, 2] - centre[2]) / up[2]
+            beside[n, 0] = feet_in_body[leg, 0] - centre[0] - height * up[0]
+            beside[n, 1] = feet_in_body[leg, 1] - centre[1] - height * up[1]
+            beside[n, 2] = leg
+            n += 1
+    return n
+
+
+@kernel
+def is_support_edge(beside: Array, n: int, i: int, j: int) -> bool:
+    """Whether foot i to foot j is an edge of the support polygon, all other feet on its left."""
+    ex, ey = beside[j, 0] - beside[i, 0], beside[j, 1] - beside[i, 1]
+    if ex * ex + ey * ey < 1e-18:
+        return False
+    least = np.inf
+    for k in range(n):
+        least = min(least, ex * (beside[k, 1] - beside[i, 1]) - ey * (beside[k, 0] - beside[i, 0]))
+    return bool(least >= -1e-9)

@@ -36,5 +36,9 @@ class WalkOutput:
     swing: NDArray[np.bool_]  # (legs,) True while a foot is in the air
     velocity: Array  # (3,) really walked after all limits
     stability_margin: float  # m, static
+    energy_margin: float  # m, height to tip over
+    stability: str  # what the margins allow: good, warn, slow, refuse
+    ground_plane: Array  # (3,) a, b, c of z = a x + b y + c through the feet, in the un-posed body
+    ground_residual: float  # m rms of the feet about it
     posture: str
     reasons: tuple[str, ...]  # what limits the walking just now

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from robot_agent.kinematics import LegModel, limit_joint_speed, solve_legs
 from robot_agent.locomotion.body_velocity import clean_velocity
+from robot_agent.locomotion.energy_margin import energy_margin
 from robot_agent.locomotion.feet import REACH, STAND, SWING
 from robot_agent.locomotion.gait_parameters import SteadyParameters
 from robot_agent.locomotion.gaits import gait_of
@@ -14,6 +15,7 @@ from robot_agent.locomotion.rising import Glide
 from robot_agent.locomotion.senses import LegSenses
 from robot_agent.locomotion.servo_lead import lead_servos
 from robot_agent.locomotion.stability import static_margin
+from robot_agent.locomotion.stability_watch import StabilityWatch, is_static
 from robot_agent.locomotion.stepper import Stepper
 from robot_agent.locomotion.walk_tick import WalkInput, WalkOutput
 from weaver_shared.config.locomotion import LocomotionConfig
@@ -46,6 +48,8 @@ class Walker:
         self._distance_left = np.zeros(legs)
         self._feet = np.zeros((legs, 3))
         self._load = np.zeros(legs)
+        self._stability = StabilityWatch(config.stability, dt)
+        self._margins = (0.0, 0.0)  # m, static and energy
         self._posture = "sitting"
         self._joint_glide: Glide | None = None
         self._foot_glide: Glide | None = None
@@ -81,8 +85,9 @@ class Walker:
             reasons += ("the velocity order is not a number",)
         if not self._parameters.follow(sensed.parameters):
             reasons += ("a gait parameter is not a number",)
+        reasons += self._judge_stability(sensed.gait)
         self._previous[:] = self._angles
-        self._act(sensed, velocity)
+        self._act(sensed, velocity * self._stability.factor)
         together = self._stepper.feet.mode == STAND
         factor = limit_joint_speed(self._previous, self._angles, self._model.speed_limit, together, dt)
         if factor < 1.0:
@@ -90,6 +95,18 @@ class Walker:
             reasons += ("a servo is at its largest speed",)
         self._lead()
         return self._answer(reasons + self._stepper.reasons)
+
+    def _judge_stability(self, gait: str) -> tuple[str, ...]:
+        """Margins of the feet that carry; what they lead to while the robot is on its legs in a static gait."""
+        senses, mode = self._senses, self._stepper.feet.mode
+        carrying = (mode == STAND) | (self._posture not in ("standing", "walking"))
+        feet, centre, up = senses.feet, senses.centre_of_mass, senses.up
+        self._margins = (static_margin(feet, carrying, centre, up), energy_margin(feet, carrying, centre, up))
+        if self._posture in ("standing", "walking") and is_static(gait_of(gait)):
+            self._stability.update(*self._margins)
+        else:
+            self._stability.clear()
+        return self._stability.reasons
 
     def _act(self, sensed: WalkInput, velocity: Array) -> None:
         """Set the wanted joint angles of this tick according to the posture."""
@@ -212,7 +229,11 @@ class Walker:
             phase=stepper.clock.leg_phase,
             swing=swing,
             velocity=stepper.velocity.copy() if self._posture == "walking" else np.zeros(3),
-            stability_margin=float(static_margin(senses.feet, ~swing, senses.centre_of_mass, senses.up)),
+            stability_margin=float(self._margins[0]),
+            energy_margin=float(self._margins[1]),
+            stability=self._stability.level,
+            ground_plane=stepper.body.plane.copy(),
+            ground_residual=float(stepper.body.residual),
             posture=self._posture,
             reasons=reasons,
         )

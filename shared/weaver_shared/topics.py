@@ -50,6 +50,7 @@ def _topic(key: str, message: type[Any], rate: float, priority: Priority, policy
 HEARTBEAT = _topic("hb", m.Heartbeat, 20.0, Priority.REAL_TIME, Policy.LATEST)
 STATE = _topic("tele/state", m.RobotState, 50.0, Priority.INTERACTIVE, Policy.LATEST)
 GAIT = _topic("tele/gait", m.GaitState, 20.0, Priority.INTERACTIVE, Policy.LATEST)
+LOCOMOTION = _topic("tele/locomotion", m.LocomotionState, 20.0, Priority.INTERACTIVE, Policy.LATEST)
 ADAPTATION = _topic("tele/adaptation", m.AdaptationReport, 10.0, Priority.INTERACTIVE, Policy.LATEST)
 POWER = _topic("tele/power", m.PowerState, 5.0, Priority.DATA, Policy.LATEST)
 HEALTH = _topic("tele/health/{process}", m.Health, 2.0, Priority.DATA, Policy.LATEST)

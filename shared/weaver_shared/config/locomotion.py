@@ -53,6 +53,29 @@ class FootholdConfig(BaseModel):
     contact_hold: Positive = 0.03  # s a contact outlasts its last reading
 
 
+class StabilityConfig(BaseModel):
+    """What the margins of stability lead to: a warning, a slower walk, no walk. All thresholds in m.
+
+    The static margin is the way of the mass to the edge of the support polygon, the energy margin the height it must
+    be lifted to tip over. Either alone is enough for a level; to leave it both must have recovered, for a while.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    warn_static: float = 0.015
+    warn_energy: float = 0.0010
+    slow_static: float = 0.005
+    slow_energy: float = 0.0002
+    refuse_static: float = -0.010
+    refuse_energy: float = -0.0005
+    recovery_static: Positive = 0.005  # beyond its threshold before a level is left
+    recovery_energy: Positive = 0.0003
+    hold_time: Positive = 0.5  # s for which they must have recovered
+    dwell_time: Positive = 0.03  # s the margins must be low: one odd reading is no danger
+    slow_factor: Fraction = 0.5  # of the wanted velocity, at the level `slow`
+    lift_static: float = 0.025  # m that must be left before a leg is lifted for manipulation
+
+
 class LocomotionConfig(BaseModel):
     """Everything the walker can be tuned with; distances m, times s."""
 
@@ -61,6 +84,7 @@ class LocomotionConfig(BaseModel):
     admittance: AdmittanceConfig = AdmittanceConfig()
     posture: PostureConfig = PostureConfig()
     foothold: FootholdConfig = FootholdConfig()
+    stability: StabilityConfig = StabilityConfig()
     largest_stride: Positive = 0.20  # paper: 0.35 m/s at 1 Hz
     largest_speed: Positive = 0.35  # m/s (paper)
     stop_time: Positive = 0.4  # s from the largest velocity to zero

@@ -107,6 +107,19 @@ class GaitState:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LocomotionState:
+    """How safely the robot stands, and on what, 20 Hz."""
+
+    stamp_ns: int
+    posture: str  # "sitting", "rising", "standing", "walking", "lowering"
+    stability: str  # what the margins allow: "good", "warn", "slow" or "refuse"
+    stability_margin: float  # m, static: of the mass to the edge of the support polygon; negative outside
+    energy_margin: float  # m, height the mass must be lifted to tip over (normalised energy stability margin)
+    ground_plane: Array  # (3,) a, b, c of z = a x + b y + c through the measured feet, in body before posing
+    ground_residual: float  # m rms of the feet about that plane
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PowerState:
     stamp_ns: int
     battery_voltage: float
