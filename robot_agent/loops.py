@@ -52,7 +52,7 @@ class WalkLoop:
     ) -> None:
         self._body = body
         robot = body.robot
-        overrides = ParameterOverrides()
+        overrides = ParameterOverrides(body.robot.adaptation)
         self.desk = CommandDesk(robot=robot, overrides=overrides, wall_clock_ns=wall_clock_ns)
         self._pipeline = WalkPipeline(robot, overrides, dt=1.0 / CONTROL_RATE)
         self._odometry: LatestSlot[OdometryEstimate] = LatestSlot()

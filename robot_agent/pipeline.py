@@ -58,7 +58,7 @@ class VisionPipeline:
         self._odometry = StereoInertialOdometry(calibration=calibration, imu=robot.imu, initial=initial)
         self._perception = TerrainPerception(calibration)
         self._map = TerrainMap()
-        self._adaptation = AdaptationController()
+        self._adaptation = AdaptationController(robot.adaptation)
         self._perceive_every = perceive_every
         self._frames = 0
         self._adapted_ns: int | None = None
@@ -106,7 +106,7 @@ class WalkPipeline:
         self._robot = robot
         self._dt = dt
         self._overrides = overrides
-        self._fallback = AdaptationController()
+        self._fallback = AdaptationController(robot.adaptation)
         self._follower = PathFollower()
         self._walker = Walker(robot, dt=dt)
         self._safety = SafetySupervisor()

@@ -12,6 +12,7 @@ from sim_agent.sensors import InertialSensor
 from sim_agent.servos import Battery, ServoBank, encoder_position, encoder_velocity
 from sim_agent.worlds import World
 from weaver_shared.errors import ConfigurationError
+from weaver_shared.frames import GRAVITY
 from weaver_shared.messages import Proprioception, SceneState, TruthState
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import Pose
@@ -41,11 +42,13 @@ class SimulatedBody:
         self._engine = Engine(robot, world, start)
         self._servos = ServoBank(robot, 1.0 / RATE)
         self._battery = Battery(robot.power)
-        self._contacts = ContactSensor(robot.leg_count)
+        self._contacts = ContactSensor(robot.leg_count, robot.mass * GRAVITY)
         self._imu = InertialSensor(robot.imu, np.random.default_rng([seed, 10]))
         self._imu_in_body = np.asarray(robot.imu.position_in_body)
         self._steps_per_sample = _divide(RATE, robot.imu.rate, "imu.rate")
-        self._camera_period_ns = TICK_NS * _divide(CONTROL_RATE, robot.camera.rate, "camera.rate")
+        self._camera_period_ns = 0
+        if robot.has_camera:
+            self._camera_period_ns = TICK_NS * _divide(CONTROL_RATE, robot.camera.rate, "camera.rate")
         self._position = start.copy()
         self._velocity = np.zeros(robot.joint_count)
         self._torque = np.zeros(robot.joint_count)
@@ -107,7 +110,7 @@ class SimulatedBody:
 
     def camera_due(self) -> bool:
         """Whether the cameras expose at this tick; they run on the control clock."""
-        return self._stamp_ns % self._camera_period_ns == 0
+        return self._camera_period_ns > 0 and self._stamp_ns % self._camera_period_ns == 0
 
     def scene_state(self) -> SceneState:
         pose = self._engine.world_from_body()

@@ -47,7 +47,7 @@ class LockStep:
         self.clock = SimulatedClock()
         self.bus = MemoryBus()
         self._robot_id = robot_id
-        self._robot = robot
+        self.robot = robot
         self._tell_truth = tell_truth
         self._body = SimulatedBody(robot, world, seed)
         self._renderer = StereoRenderer(robot, world, seed)
@@ -75,7 +75,7 @@ class LockStep:
         self._vision.feel(sensed)
         if camera_due:
             scene = self._body.scene_state()
-            frame = self._renderer.render(scene, frame_sequence(self._robot, scene.stamp_ns))
+            frame = self._renderer.render(scene, frame_sequence(self.robot, scene.stamp_ns))
             imu = self._vision.take_imu(frame.stamp_ns)
             self._seeing = self._workers.submit(self._vision.process, frame, imu)
         self._ticks += 1

@@ -32,14 +32,13 @@ def describe(record: RobotRecord, now_ns: int) -> dict[str, object]:
         "joint_names": list(robot.joint_names) if robot else [],
         "joint_limits": robot.joint_limits.tolist() * robot.leg_count if robot else [],
         "gaits": list(robot.gaits) if robot else [],
-        "parameters": _parameters(),
+        "parameters": _parameters(robot.adaptation if robot else AdaptationConfig()),
         "conflict": record.conflict(now_ns),
     }
 
 
-def _parameters() -> dict[str, dict[str, object]]:
+def _parameters(config: AdaptationConfig) -> dict[str, dict[str, object]]:
     """Bounds and units of what an operator may override."""
-    config = AdaptationConfig()
     bounds = {name: getattr(config, name) for name in _UNITS}
     return {name: {"lower": b.lower, "upper": b.upper, "unit": _UNITS[name]} for name, b in bounds.items()}
 

@@ -13,7 +13,6 @@ from typing import TextIO
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.locomotion.gaits import GAITS, gait_of
 from robot_agent.locomotion.openshc import robots as openshc_robots
 from robot_agent.locomotion.openshc import step_cycle
 from robot_agent.locomotion.openshc import table as openshc_table
@@ -38,7 +37,7 @@ def main(arguments: list[str]) -> int:
     if options.compat:
         return _compatible(options, velocity)
     robot = load_robot(options.robot)
-    gait = gait_of(options.gait)
+    gait = robot.gait(options.gait)
     parameters = GaitParameters(
         stamp_ns=0,
         virtual_stiffness=STIFFNESS,
@@ -76,7 +75,7 @@ def _parser() -> argparse.ArgumentParser:
         "for five ticks; the velocity is given once before tick 6. Units: m, rad, s, N.",
     )
     parser.add_argument("--robot", default="weaver", help=f"name ({', '.join(robot_names())}) or .toml file")
-    parser.add_argument("--gait", default="tripod", help=f"one of {', '.join(GAITS)}")
+    parser.add_argument("--gait", default="tripod", help="one of the robot's gaits")
     parser.add_argument("--velocity", default="0.1,0,0", help="vx,vy,wz of the body: m/s, m/s, rad/s")
     parser.add_argument("--ticks", type=int, default=400, help="number of control ticks")
     parser.add_argument("--frequency", type=float, default=1.0, help="strides per second, Hz")

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.kinematics.compiled import kernel
-from robot_agent.locomotion.gaits import Gait
+from weaver_shared.robots.gaits import Gait
 
 Array = NDArray[np.float64]
 

@@ -6,8 +6,8 @@ from functools import cache
 
 import numpy as np
 
-from robot_agent.locomotion.gaits import Gait
 from weaver_shared.config.locomotion import StabilityConfig
+from weaver_shared.robots.gaits import Gait
 
 GOOD, WARN, SLOW, REFUSE = 0, 1, 2, 3
 LEVELS = ("good", "warn", "slow", "refuse")

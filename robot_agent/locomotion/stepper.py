@@ -25,7 +25,6 @@ from robot_agent.locomotion.feet import (
 from robot_agent.locomotion.gait_clock import GaitClock
 from robot_agent.locomotion.gait_parameters import SteadyParameters
 from robot_agent.locomotion.gait_start import best_start, overrun
-from robot_agent.locomotion.gaits import GAITS, Gait
 from robot_agent.locomotion.impedance import LegImpedance
 from robot_agent.locomotion.load import ease_share, share_load, surplus_force
 from robot_agent.locomotion.senses import LegSenses
@@ -33,6 +32,7 @@ from robot_agent.locomotion.workspace import reachable_radius
 from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.frames import GRAVITY
 from weaver_shared.robots import RobotDescription
+from weaver_shared.robots.gaits import Gait
 
 Array = NDArray[np.float64]
 
@@ -63,7 +63,7 @@ class Stepper:
         self._skipped = False  # a foot has missed its lift-off, so the walk has to end before it goes on
         self._limited = np.zeros(3)
         self._surplus = np.zeros(legs)
-        self.clock = GaitClock(GAITS["tripod"])
+        self.clock = GaitClock(robot.gait(robot.gaits[0]))
         self.feet = Feet(legs)
         self.body = BodyMotion(config.posture, -float(self._nominal[:, 2].mean()), dt)
         self.impedance = LegImpedance(legs, config.admittance, dt)

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.locomotion.gaits import Gait
 from robot_agent.locomotion.stride import stride_of
 from robot_agent.locomotion.trajectory import TrajectoryTick
 from weaver_shared.messages import GaitParameters
 from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import joint_frames_in_body
+from weaver_shared.robots.gaits import Gait
 from weaver_shared.transforms import wxyz_from_rotation
 
 Array = NDArray[np.float64]

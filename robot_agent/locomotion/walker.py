@@ -10,7 +10,6 @@ from robot_agent.locomotion.body_velocity import clean_velocity
 from robot_agent.locomotion.energy_margin import energy_margin
 from robot_agent.locomotion.feet import REACH, STAND, SWING
 from robot_agent.locomotion.gait_parameters import SteadyParameters
-from robot_agent.locomotion.gaits import gait_of
 from robot_agent.locomotion.rising import Glide
 from robot_agent.locomotion.senses import LegSenses
 from robot_agent.locomotion.servo_lead import lead_servos
@@ -33,7 +32,7 @@ class Walker:
 
     def __init__(self, robot: RobotDescription, config: LocomotionConfig | None = None, dt: float = 0.01) -> None:
         self._robot = robot
-        self._config = config = config or LocomotionConfig()
+        self._config = config = config or robot.locomotion
         self._dt = dt
         self._model = model = LegModel.of_robot(robot, speed_fraction=config.speed_fraction)
         legs, joints = model.leg_count, model.joints_per_leg
@@ -41,6 +40,7 @@ class Walker:
         self._stepper = Stepper(robot, model, config, dt)
         self._parameters = SteadyParameters(config, dt)
         self._weight = robot.mass * GRAVITY
+        self._sitting_height = float(robot.sitting_in_body[0, 2]) + config.sitting_lift
         self._lag = model.servo_lag + dt  # the bus brings a target one tick later
         self._angles = np.zeros((legs, joints))  # wanted, without the servos' lead
         self._previous = np.zeros((legs, joints))
@@ -102,7 +102,7 @@ class Walker:
         carrying = (mode == STAND) | (self._posture not in ("standing", "walking"))
         feet, centre, up = senses.feet, senses.centre_of_mass, senses.up
         self._margins = (static_margin(feet, carrying, centre, up), energy_margin(feet, carrying, centre, up))
-        if self._posture in ("standing", "walking") and is_static(gait_of(gait)):
+        if self._posture in ("standing", "walking") and is_static(self._robot.gait(gait)):
             self._stability.update(*self._margins)
         else:
             self._stability.clear()
@@ -121,7 +121,7 @@ class Walker:
 
     def _walk(self, sensed: WalkInput, velocity: Array) -> None:
         stepper, senses = self._stepper, self._senses
-        stepper.step(senses, velocity if sensed.stand else np.zeros(3), self._parameters, gait_of(sensed.gait))
+        stepper.step(senses, velocity if sensed.stand else np.zeros(3), self._parameters, self._robot.gait(sensed.gait))
         self._load[:] = stepper.load
         self._feet[:] = stepper.places(senses.up)
         self._solve(self._feet, -senses.up)
@@ -133,7 +133,7 @@ class Walker:
         """First fold the legs, feet under their stance, then push up."""
         stance = self._robot.stance_in_body
         feet = stance.copy()
-        lowest = self._config.sitting_foot_height
+        lowest = self._sitting_height
         feet[:, 2] = float(np.clip(np.median(self._senses.feet[:, 2]), stance[0, 2], lowest))
         start = self._angles.copy()
         self._solve(feet, np.array([0.0, 0.0, -1.0]))
@@ -146,7 +146,7 @@ class Walker:
     def _begin_lowering(self) -> None:
         self._joint_glide = None
         goal = self._feet.copy()
-        goal[:, 2] = self._config.sitting_foot_height
+        goal[:, 2] = self._sitting_height
         self._foot_glide = Glide(self._feet, goal, self._config.rise_speed)
         self._posture = "lowering"
 

@@ -16,7 +16,6 @@ from robot_agent.loops import CONTROL_RATE
 from sim_agent.lock_step import LockStep
 from sim_agent.run_log import RunLog
 from sim_agent.worlds import make_world
-from weaver_shared.config.adaptation import AdaptationConfig
 from weaver_shared.errors import InputError
 from weaver_shared.messages import Answer, CommandName, Waypoint
 from weaver_shared.robots import load_robot
@@ -80,7 +79,7 @@ def _mission(run: LockStep, log: RunLog, goal: Waypoint, options: argparse.Names
 
 def _fix_parameters(run: LockStep) -> None:
     """The paper's non-adaptive set: constant, tuned to the roughest part."""
-    for name, value in safe_gait(AdaptationConfig()).items():
+    for name, value in safe_gait(run.robot.adaptation).items():
         _must(run.operator.send(CommandName.SET_OVERRIDE, name=name, value=value))
 
 

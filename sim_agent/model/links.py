@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weaver_shared.robots import RobotDescription
+from weaver_shared.robots.reach import leg_length
 
 Array = NDArray[np.float64]
 
@@ -58,7 +59,7 @@ class Link:
 def leg_links(robot: RobotDescription) -> tuple[Link, ...]:
     """The links of one leg, hip first; all legs share them."""
     lengths = [float(np.hypot(joint.d, joint.r)) for joint in robot.joints]
-    size = sum(lengths) / LEG_LENGTH
+    size = leg_length(robot) / LEG_LENGTH
     with_length = [index for index, length in enumerate(lengths) if length > 0.0]
     pitching = [index for index in with_length if robot.joints[index].r > 0.0]
     links = []

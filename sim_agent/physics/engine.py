@@ -148,7 +148,8 @@ class Engine:
         box = np.asarray(self._robot.body.size)[:2] / 2
         corners = np.array([[sx, sy] for sx in (-1, 0, 1) for sy in (-1, 0, 1)]) * box @ rotation[:2, :2].T
         ground = float(world.elevation(x + corners[:, 0], y + corners[:, 1]).max())
-        pose = Pose(rotation=rotation, position=np.array([x, y, ground + START_GAP]))
+        height = ground + self._robot.sitting_gap - self._robot.belly + START_GAP
+        pose = Pose(rotation=rotation, position=np.array([x, y, height]))
         wxyz = pose.wxyz
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "robot.urdf"

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sim_agent.model import leg_links, link_poses
-from sim_agent.model.links import HUB
+from sim_agent.model.links import HUB, LEG_LENGTH
 from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import joint_frames_in_body
+from weaver_shared.robots.reach import leg_length
 from weaver_shared.transforms import Pose, rotation_y
 
 Array = NDArray[np.float64]
@@ -55,10 +56,12 @@ def _parts(robot: RobotDescription) -> tuple[Part, ...]:
     parts = [
         Part(shape="box", link=None, link_from_shape=_stretched(np.array(body.box_in_body), np.array(body.size) / 2))
     ]
-    parts += _camera_mount(robot)
+    if robot.has_camera:
+        parts += _camera_mount(robot)
+    hub = HUB * leg_length(robot) / LEG_LENGTH
     for link in leg_links(robot):
         if link.length == 0.0:
-            parts.append(Part(shape="box", link=link.index, link_from_shape=_stretched(np.zeros(3), np.full(3, HUB))))
+            parts.append(Part(shape="box", link=link.index, link_from_shape=_stretched(np.zeros(3), np.full(3, hub))))
             continue
         parts.append(Part(shape="tube", link=link.index, link_from_shape=_along(link.end, link.radius)))
         radius = robot.foot_radius if link.is_foot else link.radius

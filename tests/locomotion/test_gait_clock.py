@@ -6,8 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robot_agent.locomotion.gait_clock import GaitClock
-from robot_agent.locomotion.gaits import GAITS, gait_of
 from weaver_shared.errors import ConfigurationError
+from weaver_shared.robots import load_robot
+
+ROBOT = load_robot()
+GAITS, gait_of = ROBOT.gait_table, ROBOT.gait
 
 
 def test_the_frequency_is_exact_over_a_thousand_strides():

@@ -129,6 +129,6 @@ def test_a_foot_glides_over_a_level_heightfield_as_over_a_plane(balls: list[Ball
 
 
 def test_the_contact_switch_has_hysteresis_and_waits_for_two_ticks() -> None:
-    sensor = ContactSensor(1)
+    sensor = ContactSensor(1, weight=100.0)
     feel = [bool(sensor.step(np.array([force]))[0]) for force in (0, 9, 0, 9, 9, 3, 3, 3, 1, 3, 1, 1, 3, 3, 3)]
     assert feel == [False] * 4 + [True] * 7 + [False] * 4

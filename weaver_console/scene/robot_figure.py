@@ -59,10 +59,10 @@ class RobotFigure:
         still = {"cast_shadow": False, "receive_shadow": False}
         scene.add_box(f"{name}/body", color=_BODY_COLOUR, dimensions=robot.body.size, position=robot.body.box_in_body,
                       **still)  # fmt: skip
-        camera = robot.camera
-        wxyz = camera.body_from_left.wxyz
-        scene.add_box(f"{name}/eyes", color=_EYE_COLOUR, dimensions=(camera.baseline + 0.04, 0.035, 0.03), wxyz=wxyz,
-                      position=camera.position_in_body, **still)  # fmt: skip
+        if robot.has_camera:
+            eyes = robot.camera
+            scene.add_box(f"{name}/eyes", color=_EYE_COLOUR, dimensions=(eyes.baseline + 0.04, 0.035, 0.03),
+                          wxyz=eyes.body_from_left.wxyz, position=eyes.position_in_body, **still)  # fmt: skip
         top = robot.body.box_in_body[2] + 0.5 * robot.body.size[2]
         stripe = (0.12 * robot.body.size[0], 0.9 * robot.body.size[1], 0.004)
         place = (0.42 * robot.body.size[0], 0.0, top)

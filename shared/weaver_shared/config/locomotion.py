@@ -96,7 +96,7 @@ class LocomotionConfig(BaseModel):
     stiffness_rate: Positive = 2000.0  # N/m/s
     rise_speed: Positive = 0.06  # m/s, mean, while standing up or sitting down
     soft_start_speed: Positive = 0.6  # rad/s, mean, towards the posture before standing up
-    sitting_foot_height: float = 0.02  # m, feet against the hip plane when the belly rests on the ground
+    sitting_lift: Positive = 0.004  # m, feet higher than the ground when sitting, so that the belly takes the weight
     speed_fraction: Fraction = 0.9  # of the servos' no-load speed
     feel_ground: bool = True  # False: feet touch down where and when planned; for trajectories without physics
     compensate_servos: bool = True  # lead the servos by the sag and lag known from their data

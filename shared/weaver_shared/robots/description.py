@@ -2,160 +2,59 @@
 
 from __future__ import annotations
 
-import tomllib
 from functools import cached_property
-from importlib import resources
-from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
+from weaver_shared.config.adaptation import AdaptationConfig
+from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.errors import ConfigurationError
-from weaver_shared.transforms import Pose, rotation_x, rotation_y, rotation_z
+from weaver_shared.robots.gaits import Gait, predefined_gaits
+from weaver_shared.robots.parts import Body, Camera, Imu, Joint, Leg, Part, Positive, Power, Servo
+from weaver_shared.transforms import rotation_x, rotation_z
 
-Vector3 = tuple[float, float, float]
-Positive = Annotated[float, Field(gt=0.0)]
-
-OPTICAL_FROM_FORWARD = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]])
-"""Turns x-forward z-up coordinates into the optical frame: x right, y down, z forward."""
+__all__ = ["CustomGait", "Imu", "Power", "RobotDescription"]
 
 
-class _Model(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+class CustomGait(Part):
+    """A gait of the robot's own: `duty` is stance over stride time, `offsets` the fraction of a stride by leg name.
 
-
-class Servo(_Model):
-    """DC servo seen at its output shaft; SI units, rail voltage."""
-
-    torque_constant: Positive
-    resistance: Positive
-    armature: Positive
-    coulomb_friction: Annotated[float, Field(ge=0.0)]
-    viscous_friction: Annotated[float, Field(ge=0.0)]
-    stall_torque: Positive
-    no_load_speed: Positive
-    supply_voltage: Positive
-    position_gain: Positive
-    idle_power: Annotated[float, Field(ge=0.0)]
-
-
-class Body(_Model):
-    """The trunk: a box of `size` (m) centred at `box_in_body`."""
-
-    size: Vector3
-    box_in_body: Vector3
-    mass: Positive
-    centre_of_mass_in_body: Vector3
-
-
-class Joint(_Model):
-    """One classical Denavit-Hartenberg row (m, rad) with its limits (rad), servo and link mass (kg)."""
-
-    name: str
-    servo: str
-    theta: float
-    d: float
-    r: float
-    alpha: float
-    lower: float
-    upper: float
-    mass: Positive
-
-    @model_validator(mode="after")
-    def _ordered(self) -> Joint:
-        if self.lower >= self.upper:
-            raise ValueError(f"joint {self.name}: lower limit {self.lower} rad is not below upper {self.upper} rad")
-        return self
-
-
-class Leg(_Model):
-    """Where a leg's chain begins on the body (m, rad) and where its foot stands (m).
-
-    The chain's first axes are the body's, turned by `hip_yaw` about z and then by `hip_roll` about their own x. A
-    mirrored leg is the mirror image through their x-z plane: the same joint angles are the mirrored posture.
+    A leg lifts when the common phase plus its offset passes a whole number, so greater offsets lift earlier.
     """
 
     name: str
-    hip_in_body: Vector3
-    hip_yaw: float
-    hip_roll: float = 0.0
-    mirrored: bool = False
-    stance_in_body: tuple[float, float]
+    duty: Annotated[float, Field(gt=0.0, lt=1.0)]
+    offsets: dict[str, Annotated[float, Field(ge=0.0, lt=1.0)]]
 
 
-class Camera(_Model):
-    """Rectified stereo pair: identical pinholes (px), `baseline` m apart along the optical x axis."""
+class RobotDescription(Part):
+    """A legged robot: 3 to 8 legs with the same chain of 3 to 6 joints. Units are SI; frames as in `frames`.
 
-    width: Annotated[int, Field(gt=0)]
-    height: Annotated[int, Field(gt=0)]
-    focal_length: Positive
-    baseline: Positive
-    position_in_body: Vector3
-    pitch_down: float
-    rate: Positive
+    `gaits` are names of predefined gaits for that many legs or of the robot's own; the first is the one to begin with.
+    `locomotion` and `adaptation` hold what differs from Weaver's settings, which a robot of another size must restate.
+    """
 
-    @property
-    def intrinsics(self) -> tuple[float, float, float, float]:
-        """fx, fy, cx, cy in pixels; the principal point is the picture's centre."""
-        return self.focal_length, self.focal_length, (self.width - 1) / 2, (self.height - 1) / 2
-
-    @property
-    def body_from_left(self) -> Pose:
-        """Pose of the left eye's optical frame."""
-        return self._body_from_eye(0.5 * self.baseline)
-
-    @property
-    def body_from_right(self) -> Pose:
-        return self._body_from_eye(-0.5 * self.baseline)
-
-    def _body_from_eye(self, left_offset: float) -> Pose:
-        rotation = rotation_y(self.pitch_down) @ OPTICAL_FROM_FORWARD.T
-        centre = np.asarray(self.position_in_body)
-        return Pose(rotation=rotation, position=centre + np.array([0.0, left_offset, 0.0]))
-
-
-class Imu(_Model):
-    """IMU axes are parallel to the body's; noise densities as in Kalibr's imu.yaml (SI)."""
-
-    position_in_body: Vector3
-    rate: Positive
-    gyro_noise_density: Positive
-    gyro_random_walk: Positive
-    accel_noise_density: Positive
-    accel_random_walk: Positive
-
-    @property
-    def body_from_imu(self) -> Pose:
-        return Pose.of(self.position_in_body)
-
-
-class Power(_Model):
-    battery_voltage: Positive
-    battery_capacity_ah: Positive
-    electronics_power: Annotated[float, Field(ge=0.0)]
-    converter_efficiency: Annotated[float, Field(gt=0.0, le=1.0)]
-
-
-GaitName = Literal["tripod", "ripple", "amble", "wave"]
-
-
-class RobotDescription(_Model):
-    """A legged robot: n legs with the same chain of m joints. Units are SI; frames as in `frames`."""
+    model_config = ConfigDict(serialize_by_alias=True)
 
     name: str
     mass: Positive
     clearance: Positive
     foot_radius: Positive
-    gaits: tuple[GaitName, ...]
+    sitting_gap: Annotated[float, Field(ge=0.0)] = 0.0
+    gaits: Annotated[tuple[str, ...], Field(min_length=1)]
+    custom_gaits: tuple[CustomGait, ...] = ()
     body: Body
     servos: dict[str, Servo]
-    joints: tuple[Joint, ...]
-    legs: tuple[Leg, ...]
-    camera: Camera
+    joints: Annotated[tuple[Joint, ...], Field(min_length=3, max_length=6)]
+    legs: Annotated[tuple[Leg, ...], Field(min_length=3, max_length=8)]
+    stereo: Camera | None = Field(default=None, alias="camera")
     imu: Imu
     power: Power
+    locomotion: LocomotionConfig = LocomotionConfig()
+    adaptation: AdaptationConfig = AdaptationConfig()
 
     @model_validator(mode="after")
     def _consistent(self) -> RobotDescription:
@@ -163,10 +62,53 @@ class RobotDescription(_Model):
             if joint.servo not in self.servos:
                 known = ", ".join(sorted(self.servos))
                 raise ValueError(f"joint {joint.name}: servo {joint.servo!r} is not described; described are {known}")
+        _unique("joints", [joint.name for joint in self.joints])
+        _unique("legs", [leg.name for leg in self.legs])
         parts = self.body.mass + len(self.legs) * sum(joint.mass for joint in self.joints)
         if abs(parts - self.mass) > 0.02 * self.mass:
             raise ValueError(f"mass: parts add up to {parts:.2f} kg, but the robot is given as {self.mass:.2f} kg")
+        self._check_gaits()
         return self
+
+    def _check_gaits(self) -> None:
+        _unique("custom_gaits", [gait.name for gait in self.custom_gaits])
+        for gait in self.custom_gaits:
+            if set(gait.offsets) != set(self.leg_names):
+                found, legs = ", ".join(sorted(gait.offsets)), ", ".join(self.leg_names)
+                raise ValueError(f"custom_gaits.{gait.name}.offsets: has {found}; give one for each of the legs {legs}")
+        known = predefined_gaits(self.leg_count).keys() | {gait.name for gait in self.custom_gaits}
+        for index, name in enumerate(self.gaits):
+            if name not in known:
+                raise ValueError(
+                    f"gaits.{index}: {name!r} is no gait of a robot with {self.leg_count} legs; valid are "
+                    f"{', '.join(sorted(known))}"
+                )
+
+    @property
+    def has_camera(self) -> bool:
+        return self.stereo is not None
+
+    @property
+    def camera(self) -> Camera:
+        """The stereo pair. Raises ConfigurationError for a robot without one."""
+        if self.stereo is None:
+            raise ConfigurationError(f"robot {self.name!r} has no camera, and what is asked for needs one")
+        return self.stereo
+
+    @cached_property
+    def gait_table(self) -> dict[str, Gait]:
+        """The robot's gaits by name; its own take the place of predefined ones."""
+        table = predefined_gaits(self.leg_count)
+        for own in self.custom_gaits:
+            offset = tuple(own.offsets[name] for name in self.leg_names)
+            table[own.name] = Gait(name=own.name, duty=own.duty, offset=offset)
+        return {name: table[name] for name in self.gaits}
+
+    def gait(self, name: str) -> Gait:
+        """Raises ConfigurationError that names the robot's gaits."""
+        if name not in self.gait_table:
+            raise ConfigurationError(f"gait {name!r} is unknown; known are {', '.join(self.gait_table)}")
+        return self.gait_table[name]
 
     @property
     def leg_count(self) -> int:
@@ -200,6 +142,34 @@ class RobotDescription(_Model):
         return np.array([[j.lower, j.upper] for j in self.joints])
 
     @cached_property
+    def standing_search(self) -> NDArray[np.float64]:
+        """Where the search for standing joint angles begins, (legs, joints) in rad."""
+        middle = self.joint_limits.mean(axis=1)
+        return np.tile(
+            [m if j.standing is None else j.standing for j, m in zip(self.joints, middle, strict=True)],
+            (self.leg_count, 1),
+        )
+
+    @cached_property
+    def sitting_search(self) -> NDArray[np.float64]:
+        """Where the search for sitting joint angles begins, (legs, joints) in rad."""
+        standing = self.standing_search[0]
+        sitting = [s if j.sitting is None else j.sitting for j, s in zip(self.joints, standing, strict=True)]
+        return np.tile(sitting, (self.leg_count, 1))
+
+    @property
+    def belly(self) -> float:
+        """Height of the trunk's underside in body (m)."""
+        return self.body.box_in_body[2] - 0.5 * self.body.size[2]
+
+    @cached_property
+    def sitting_in_body(self) -> NDArray[np.float64]:
+        """Foot centres when sitting, (legs, 3): under their stance, the belly `sitting_gap` over the ground."""
+        feet = self.stance_in_body.copy()
+        feet[:, 2] = self.belly - self.sitting_gap + self.foot_radius
+        return feet
+
+    @cached_property
     def hips_in_body(self) -> NDArray[np.float64]:
         """Chain origins, (legs, 3)."""
         return np.array([leg.hip_in_body for leg in self.legs])
@@ -226,32 +196,7 @@ class RobotDescription(_Model):
         return np.array([[*leg.stance_in_body, -self.clearance + self.foot_radius] for leg in self.legs])
 
 
-def robot_names() -> tuple[str, ...]:
-    folder = resources.files("weaver_shared.robots")
-    return tuple(sorted(entry.name[:-5] for entry in folder.iterdir() if entry.name.endswith(".toml")))
-
-
-def load_robot(name_or_path: str = "weaver") -> RobotDescription:
-    """A shipped robot by name, or one's own TOML file by path.
-
-    Raises ConfigurationError that names the key, what was found and what is valid.
-    """
-    if name_or_path in robot_names():
-        text = (resources.files("weaver_shared.robots") / f"{name_or_path}.toml").read_text()
-    elif Path(name_or_path).is_file():
-        text = Path(name_or_path).read_text()
-    else:
-        known = ", ".join(robot_names())
-        raise ConfigurationError(f"robot {name_or_path!r} is unknown; known are {known}, or give a .toml file")
-    try:
-        return RobotDescription.model_validate(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
-        raise ConfigurationError(f"robot {name_or_path!r} is not valid TOML: {error}") from error
-    except ValidationError as error:
-        raise ConfigurationError(f"robot {name_or_path!r}: {_sentence(error)}") from error
-
-
-def _sentence(error: ValidationError) -> str:
-    first = error.errors()[0]
-    where = ".".join(str(part) for part in first["loc"]) or "robot"
-    return f"{where}: {first['msg']} (found {first['input']!r:.80})"
+def _unique(key: str, names: list[str]) -> None:
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f"{key}: the name {name!r} stands for more than one")
