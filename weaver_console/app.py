@@ -31,9 +31,14 @@ PAGE_POLICY = (
 SCENE_POLICY = (
     "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval' 'wasm-unsafe-eval' blob: data:; "
     "worker-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
-    "font-src 'self' data:; connect-src 'self' data: blob:; frame-ancestors 'self'; object-src 'none'"
+    "font-src 'self' data:; connect-src 'self' {host} data: blob:; frame-ancestors 'self'; object-src 'none'"
 )
-"""viser's page is one file with its scripts inside, which needs more than ours; neither may ask another host."""
+"""viser's page is one file with its scripts inside, which needs more than ours; neither may ask another host.
+
+Its sandbox has no origin that 'self' could stand for in a worker, so the host is named.
+"""
+
+_HOST = re.compile(r"[A-Za-z0-9.:\[\]-]{1,255}")
 
 LARGEST_LOGIN = 4096
 
@@ -57,7 +62,7 @@ def create_app(hub: Hub, access: Access, *, folder: Path | None = None) -> FastA
 
     app = FastAPI(title="Weaver Console", version=version("weaver-hexapod"), lifespan=lifespan, docs_url=None,
                   redoc_url=None)  # fmt: skip
-    app.middleware("http")(_guard(access))
+    app.middleware("http")(_guard(access, hub))
     _add_api(app, hub)
     _add_login(app, access)
     _add_sockets(app, hub, access)
@@ -65,26 +70,38 @@ def create_app(hub: Hub, access: Access, *, folder: Path | None = None) -> FastA
     return app
 
 
-def _guard(access: Access) -> Callable[[Request, Callable[[Request], Awaitable[Response]]], Awaitable[Response]]:
+def _guard(
+    access: Access, hub: Hub
+) -> Callable[[Request, Callable[[Request], Awaitable[Response]]], Awaitable[Response]]:
     """Checks origin and cookie before anything else, and sets the headers of every answer."""
 
     async def guard(request: Request, go_on: Callable[[Request], Awaitable[Response]]) -> Response:
         path = request.url.path
-        if not access.origin_allowed(request.headers):
+        scene = path.startswith("/viser/")
+        if not access.origin_allowed(request.headers, sandboxed=scene):
             response: Response = JSONResponse({"error": "requests from other sites are refused"}, status_code=403)
-        elif path in ("/api/health", "/api/login") or access.admits(request.cookies.get(COOKIE)):
+        elif (
+            path in ("/api/health", "/api/login")
+            or access.admits(request.cookies.get(COOKIE))
+            # A 3-D view's sandbox sends no cookie, but it has been told a secret.
+            or (scene and hub.page_of(path.split("/")[2]) is not None)
+        ):
             response = await go_on(request)
         elif path == "/":
             response = HTMLResponse(built_page.LOGIN, status_code=401)
         else:
             response = JSONResponse({"error": "log in first"}, status_code=401)
-        policy = SCENE_POLICY if path.startswith("/viser/") else PAGE_POLICY
-        response.headers["Content-Security-Policy"] = policy
+        response.headers["Content-Security-Policy"] = _scene_policy(request) if scene else PAGE_POLICY
         response.headers["X-Content-Type-Options"] = "nosniff"
         response.headers["Referrer-Policy"] = "same-origin"
         return response
 
     return guard
+
+
+def _scene_policy(request: Request) -> str:
+    host = request.headers.get("host", "")
+    return SCENE_POLICY.format(host=f"{host} ws://{host} wss://{host}" if _HOST.fullmatch(host) else "")
 
 
 def _add_api(app: FastAPI, hub: Hub) -> None:
@@ -170,14 +187,13 @@ def _add_sockets(app: FastAPI, hub: Hub, access: Access) -> None:
         finally:
             hub.leave(session)
 
-    @app.websocket("/viser/{page}")
-    @app.websocket("/viser/{page}/")
-    async def scene_socket(socket: WebSocket, page: str) -> None:
-        if not await admitted(socket):
-            return
-        scene = hub.scene(page)
+    @app.websocket("/viser/{key}")
+    @app.websocket("/viser/{key}/")
+    async def scene_socket(socket: WebSocket, key: str) -> None:
+        page = hub.page_of(key) if access.origin_allowed(socket.headers, sandboxed=True) else None
+        scene = hub.scene(page) if page is not None else None
         if scene is None:
-            await socket.close(code=1013)
+            await socket.close(code=1008)
             return
         await carry(socket, scene.port)
 
@@ -209,18 +225,20 @@ async def _receive(socket: WebSocket, session: PageSession, hub: Hub) -> None:
 
 
 def _add_pages(app: FastAPI, hub: Hub, folder: Path | None) -> None:
-    @app.get("/viser/{page}")
-    @app.get("/viser/{page}/")
-    async def scene(request: Request, page: str) -> Response:
-        if hub.scene(page) is None:
+    @app.get("/viser/{key}")
+    @app.get("/viser/{key}/")
+    async def scene(key: str) -> Response:
+        page = hub.page_of(key)
+        if page is None or hub.scene(page) is None:
             return JSONResponse({"error": "this page is not connected"}, status_code=404)
         headers = {"Content-Encoding": "gzip", "Vary": "Accept-Encoding", "Cache-Control": "no-cache"}
         return Response(scene_page(), media_type="text/html", headers=headers)
 
-    @app.post("/viser/{page}/thrift")
-    async def thrift(page: str) -> Response:
+    @app.post("/viser/{key}/thrift")
+    async def thrift(key: str) -> Response:
         """The browser of this page draws without a graphics card."""
-        view = hub.scene(page)
+        page = hub.page_of(key)
+        view = hub.scene(page) if page is not None else None
         if view is not None:
             view.thrifty = True
         return Response(status_code=204)

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import hashlib
+import hmac
 import logging
 import random
+import secrets
 import threading
 import time
 
@@ -37,6 +40,7 @@ class Hub:
         self.started = time.monotonic()
         self._desk = CommandDesk(link)
         self._random = random_source or random.Random()
+        self._secret = secrets.token_bytes(32)
         self._sessions: dict[str, PageSession] = {}
         self._scenes: dict[str, PageScene] = {}
         self._orphaned: dict[str, float] = {}
@@ -75,7 +79,11 @@ class Hub:
             name = operator_names.distinct(operator_names.valid(operator), taken)
         else:
             name = operator_names.invent(taken, self._random)
-        session = PageSession(page=page, operator=name, link=self.link, roster=self.roster, desk=self._desk)
+        # The same for a page that returns, so that its view stays; nobody can tell it from the page's id.
+        key = hmac.new(self._secret, page.encode(), hashlib.sha256).hexdigest()[:32]
+        session = PageSession(
+            page=page, scene_key=key, operator=name, link=self.link, roster=self.roster, desk=self._desk
+        )
         self._sessions[page] = session
         self._orphaned.pop(page, None)
         session.greet(with_scene=self.with_scenes)
@@ -90,6 +98,10 @@ class Hub:
     def current(self, session: PageSession) -> bool:
         """False once the same page has connected anew."""
         return self._sessions.get(session.page) is session
+
+    def page_of(self, scene_key: str) -> str | None:
+        """The connected page to which a 3-D view's secret was given; None for any other text."""
+        return next((name for name, session in self._sessions.items() if session.scene_key == scene_key), None)
 
     def scene(self, page: str) -> PageScene | None:
         """The page's 3-D view, opened at its first use; None for a page that is not connected."""

@@ -25,8 +25,8 @@ from weaver_console.scene.page_scene import PageScene
 from weaver_shared.errors import InputError, MessageError
 from weaver_shared.messages import CommandName, Waypoint
 
-TICK = 0.05
-"""Seconds between two batches."""
+TICK, THRIFTY_TICK = 0.05, 0.1
+"""Seconds between two batches, and where the browser draws without a graphics card."""
 
 MOST_WAITING = 500
 """Messages beyond which a page that does not read loses the oldest answers."""
@@ -37,8 +37,11 @@ SENDING_TIMEOUT = 20.0
 class PageSession:
     """Runs in the event loop; `pick` and `show_legend` may be called from any thread."""
 
-    def __init__(self, *, page: str, operator: str, link: Link, roster: Roster, desk: CommandDesk) -> None:
+    def __init__(
+        self, *, page: str, scene_key: str, operator: str, link: Link, roster: Roster, desk: CommandDesk
+    ) -> None:
         self.page = page
+        self.scene_key = scene_key  # tells this page's 3-D view, which its sandbox leaves without a cookie
         self.operator = operator
         self.scene: PageScene | None = None
         self.wishes: dict[str, object] = {}  # for a scene that is opened later
@@ -59,13 +62,17 @@ class PageSession:
     def robot(self) -> str | None:
         return self._feed.robot
 
+    @property
+    def _tick(self) -> float:
+        return THRIFTY_TICK if self.scene is not None and self.scene.thrifty else TICK
+
     def greet(self, *, with_scene: bool) -> None:
         hello: dict[str, object] = {
             "type": "hello",
             "page": self.page,
             "operator": self.operator,
             "version": version("weaver-hexapod"),
-            "scene": f"/viser/{self.page}/" if with_scene else None,
+            "scene": f"/viser/{self.scene_key}/" if with_scene else None,
             "layers": list(LAYERS),
             "layer": self._layer,
             "schema": 1,
@@ -87,7 +94,7 @@ class PageSession:
             if self._loop.time() >= due:
                 if self._pace.ready:
                     messages += self._feed.collect()
-                due = self._loop.time() + TICK
+                due = self._loop.time() + self._tick
             if messages:
                 text = "[" + ",".join(message.decode() for message in messages) + "]"
                 self._pace.sent()

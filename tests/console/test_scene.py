@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Iterator
 from itertools import pairwise
 from types import SimpleNamespace
@@ -10,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import Console, Field, Page
+from conftest import PASSWORD, Console, Field, Page
 from hypothesis import given
 from hypothesis import strategies as st
 from websockets.exceptions import InvalidStatus
@@ -159,17 +160,36 @@ def test_a_state_that_is_no_state_of_this_robot_is_not_drawn(field: Field, view:
 def test_the_view_is_reached_through_the_console_with_its_own_subprotocol(console: Console):
     with console.page() as socket:
         hello = Page(socket).hear("hello")
-        assert hello["scene"] == "/viser/page-0001/"
+        assert re.fullmatch(r"/viser/[0-9a-f]{32}/", hello["scene"])
         html = console.http.get(hello["scene"])
         assert html.status_code == 200
         assert "weaver-scene" in html.text
         assert "frame-ancestors 'self'" in html.headers["content-security-policy"]
         viser = __import__("viser")
-        with console.connect("/viser/page-0001", subprotocols=[f"viser-v{viser.__version__}"]) as scene:
+        with console.connect(hello["scene"], subprotocols=[f"viser-v{viser.__version__}"]) as scene:
             assert isinstance(scene.recv(timeout=10.0), bytes)
             scene.send(b"ShareUrlRequest")
         with pytest.raises(InvalidStatus):
-            console.connect("/viser/page-0001")
+            console.connect(hello["scene"])
+    with console.page() as socket:
+        assert Page(socket).hear("hello")["scene"] == hello["scene"]  # a page that returns keeps its view
+
+
+def test_the_sandboxed_view_needs_no_cookie_but_its_own_secret(guarded: Console):
+    login = guarded.http.post("/api/login", json={"password": PASSWORD})
+    cookie = login.headers["set-cookie"].split(";")[0]
+    guarded.http.cookies.clear()
+    with guarded.page(additional_headers={"Cookie": cookie}) as socket:
+        scene = Page(socket).hear("hello")["scene"]
+        assert guarded.http.get(scene, headers={"origin": "null"}).status_code == 200
+        assert guarded.http.get(scene, headers={"origin": "http://evil.example"}).status_code == 403
+        assert guarded.http.get("/viser/page-0001/", headers={"origin": "null"}).status_code == 401
+        assert guarded.http.get("/api/robots", headers={"origin": "null"}).status_code == 403
+        viser = __import__("viser")
+        protocol = f"viser-v{viser.__version__}"
+        with guarded.connect(scene, subprotocols=[protocol], origin="null") as view:
+            assert isinstance(view.recv(timeout=10.0), bytes)
+    assert guarded.http.get(scene).status_code == 401
 
 
 def test_there_is_no_view_for_a_page_that_is_not_connected(console: Console):

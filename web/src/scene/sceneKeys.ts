@@ -13,13 +13,18 @@ export interface SceneKey {
   metaKey: boolean;
 }
 
-/** Calls `listener` for each key from a frame of our own origin; the returned function ends it. */
+/** Calls `listener` for each key from a frame of this page; the returned function ends it. */
 export function onSceneKey(listener: (key: SceneKey) => void): () => void {
   const receive = (event: MessageEvent<unknown>) => {
-    if (event.origin === location.origin && isSceneKey(event.data)) listener(event.data);
+    // The 3-D view is sandboxed and has no origin to go by: what counts is that it is a frame directly in this page.
+    if (isOurs(event.source) && isSceneKey(event.data)) listener(event.data);
   };
   window.addEventListener("message", receive);
   return () => window.removeEventListener("message", receive);
+}
+
+function isOurs(source: MessageEventSource | null): boolean {
+  return [...document.querySelectorAll("iframe")].some((frame) => frame.contentWindow === source);
 }
 
 function isSceneKey(data: unknown): data is SceneKey {
