@@ -17,6 +17,7 @@ import numpy as np
 from robot_agent.adaptation import ParameterOverrides
 from robot_agent.authority import Authority
 from robot_agent.mission import Mission
+from robot_agent.motion_desk import MotionDesk
 from robot_agent.orders import Orders
 from weaver_shared.config.command import CommandLimits
 from weaver_shared.errors import WeaverError
@@ -60,6 +61,7 @@ class CommandDesk:
         self._lock = threading.RLock()
         self._authority = Authority()
         self._mission = Mission(self._limits)
+        self._motion = MotionDesk(robot)
         self._situation = Situation(
             stamp_ns=0, robot_xy=(0.0, 0.0), mode="OFF", settled=True, stand_blockers=("starting",)
         )
@@ -83,6 +85,9 @@ class CommandDesk:
             CommandName.SET_OVERRIDE: self._set_override,
             CommandName.CLEAR_OVERRIDE: self._clear_override,
             CommandName.SET_GAIT: self._set_gait,
+            CommandName.SET_POSE: self._moving(self._motion.set_pose),
+            CommandName.CLEAR_POSE: self._moving(self._motion.clear_pose),
+            CommandName.SET_POSING: self._moving(self._motion.set_posing),
         }
 
     def answer(self, command: Command) -> Answer:
@@ -137,6 +142,7 @@ class CommandDesk:
                 waypoints=self._mission.waypoints,
                 mission_serial=self._mission.serial,
                 teleop_velocity=self._teleop_velocity(now),
+                posing=self._motion.posing,
             )
 
     def mission_progress(
@@ -183,6 +189,7 @@ class CommandDesk:
             mode = self._situation.mode
             names = {CommandName.STOP, CommandName.TAKE_CONTROL, CommandName.RELEASE_CONTROL, CommandName.SET_GAIT}
             names |= {CommandName.SET_MISSION, CommandName.SET_OVERRIDE, CommandName.CLEAR_OVERRIDE}
+            names |= {CommandName.SET_POSE, CommandName.CLEAR_POSE, CommandName.SET_POSING}
             if self._stop_level:
                 if self._situation.settled:
                     names.add(CommandName.RELEASE_STOP)
@@ -280,6 +287,17 @@ class CommandDesk:
             return self._refuse(f"gait {command.name!r:.40} is unknown; known are {', '.join(self._robot.gaits)}")
         self._gait = command.name
         return self._accept()
+
+    def _moving(self, apply: Callable[[Command], float]) -> Callable[[Command], Answer]:
+        """A motion desk's method as a handler."""
+
+        def handle(command: Command) -> Answer:
+            try:
+                return self._accept(apply(command))
+            except WeaverError as error:
+                return self._refuse(str(error))
+
+        return handle
 
     def _teleop_velocity(self, now_ns: int) -> np.ndarray | None:
         frame = self._teleop

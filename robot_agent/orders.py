@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from weaver_shared.messages import Waypoint
 
 
@@ -21,6 +22,7 @@ class Orders:
     waypoints: tuple[Waypoint, ...]
     mission_serial: int  # rises when the follower must begin anew
     teleop_velocity: NDArray[np.float64] | None  # (3,) fractions -1..1 of the limits; None: nobody steers
+    posing: PosingOrder = NO_POSING
 
 
 def idle_orders(gait: str = "tripod") -> Orders:

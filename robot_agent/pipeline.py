@@ -157,6 +157,7 @@ class WalkPipeline:
                 joint_torque=sensed.joint_torque,
                 foot_contact=sensed.foot_contact,
                 gravity_in_body=state.gravity_in_body,
+                posing=orders.posing,
             )
         )
         self._posture = walk.posture

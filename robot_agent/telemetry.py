@@ -184,6 +184,8 @@ def _locomotion_state(tick: WalkTick) -> LocomotionState:
         energy_margin=walk.energy_margin,
         ground_plane=walk.ground_plane,
         ground_residual=walk.ground_residual,
+        pose_position=walk.unposed_from_body.position,
+        pose_rpy=rpy_from_rotation(walk.unposed_from_body.rotation),
     )
 
 

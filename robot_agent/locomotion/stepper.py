@@ -27,6 +27,7 @@ from robot_agent.locomotion.gait_parameters import SteadyParameters
 from robot_agent.locomotion.gait_start import best_start, overrun
 from robot_agent.locomotion.impedance import LegImpedance
 from robot_agent.locomotion.load import ease_share, share_load, surplus_force
+from robot_agent.locomotion.posing.unposed import UnposedSenses
 from robot_agent.locomotion.senses import LegSenses
 from robot_agent.locomotion.workspace import reachable_radius
 from weaver_shared.config.locomotion import LocomotionConfig
@@ -102,7 +103,7 @@ class Stepper:
         result: Array = self.feet.place + self.impedance.offset[:, :1] * up
         return result
 
-    def step(self, senses: LegSenses, wanted: Array, parameters: SteadyParameters, gait: Gait) -> None:
+    def step(self, senses: LegSenses | UnposedSenses, wanted: Array, parameters: SteadyParameters, gait: Gait) -> None:
         """One tick towards `wanted` (vx, vy, turn)."""
         self.reasons = ()
         stance = self.stance
@@ -186,7 +187,7 @@ class Stepper:
                     feet.swing_height, feet.lifted, feet.reached,
                 )  # fmt: skip
 
-    def _move(self, senses: LegSenses, stance: Array, parameters: SteadyParameters) -> None:
+    def _move(self, senses: LegSenses | UnposedSenses, stance: Array, parameters: SteadyParameters) -> None:
         config, feet, body = self._config, self.feet, self.body
         np.multiply(self.commanded, self.pace, out=self.velocity)
         far = overrun(feet.mode, feet.place, stance, self.velocity, 0.5 * config.largest_stride)
@@ -222,7 +223,7 @@ class Stepper:
         )
         take_anchors(feet.mode, senses.contact, senses.feet, feet.place, config.feel_ground, feet.anchor)
 
-    def _carry_load(self, senses: LegSenses, parameters: SteadyParameters) -> None:
+    def _carry_load(self, senses: LegSenses | UnposedSenses, parameters: SteadyParameters) -> None:
         """Share the weight among the standing feet, easing it on after touch-down and off before lift-off."""
         feet = self.feet
         lifting = self.walking and not self._halted

@@ -5,7 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from weaver_shared.messages import GaitParameters
+from weaver_shared.transforms import Pose
 
 Array = NDArray[np.float64]
 
@@ -23,6 +25,7 @@ class WalkInput:
     joint_torque: Array  # (joints,) N m, measured
     foot_contact: NDArray[np.bool_]  # (legs,)
     gravity_in_body: Array  # (3,) unit vector, downwards
+    posing: PosingOrder = NO_POSING
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,5 +43,6 @@ class WalkOutput:
     stability: str  # what the margins allow: good, warn, slow, refuse
     ground_plane: Array  # (3,) a, b, c of z = a x + b y + c through the feet, in the un-posed body
     ground_residual: float  # m rms of the feet about it
+    unposed_from_body: Pose  # how the body is posed
     posture: str
     reasons: tuple[str, ...]  # what limits the walking just now

@@ -10,6 +10,9 @@ from robot_agent.locomotion.body_velocity import clean_velocity
 from robot_agent.locomotion.energy_margin import energy_margin
 from robot_agent.locomotion.feet import REACH, STAND, SWING
 from robot_agent.locomotion.gait_parameters import SteadyParameters
+from robot_agent.locomotion.posing.order import NO_POSING
+from robot_agent.locomotion.posing.poser import Poser
+from robot_agent.locomotion.posing.unposed import UnposedSenses
 from robot_agent.locomotion.rising import Glide
 from robot_agent.locomotion.senses import LegSenses
 from robot_agent.locomotion.servo_lead import lead_servos
@@ -39,6 +42,8 @@ class Walker:
         self._senses = LegSenses(robot, model, config, dt)
         self._stepper = Stepper(robot, model, config, dt)
         self._parameters = SteadyParameters(config, dt)
+        self._unposed = UnposedSenses(self._senses)
+        self._poser = Poser(config, model, robot.stance_in_body, np.array(robot.body.centre_of_mass_in_body), dt)
         self._weight = robot.mass * GRAVITY
         self._sitting_height = float(robot.sitting_in_body[0, 2]) + config.sitting_lift
         self._lag = model.servo_lag + dt  # the bus brings a target one tick later
@@ -63,6 +68,7 @@ class Walker:
         self._previous[:] = self._angles
         self._posture = "sitting"
         self._joint_glide = self._foot_glide = None
+        self._poser.clear()
 
     def begin_standing(self) -> Array:
         """Be standing at once, feet on their stance; returns the joint angles (joints,) that this means."""
@@ -94,7 +100,7 @@ class Walker:
             self._stepper.slow_down(factor)
             reasons += ("a servo is at its largest speed",)
         self._lead()
-        return self._answer(reasons + self._stepper.reasons)
+        return self._answer(reasons + self._stepper.reasons + self._poser.reasons)
 
     def _judge_stability(self, gait: str) -> tuple[str, ...]:
         """Margins of the feet that carry; what they lead to while the robot is on its legs in a static gait."""
@@ -120,14 +126,34 @@ class Walker:
             self._walk(sensed, velocity)
 
     def _walk(self, sensed: WalkInput, velocity: Array) -> None:
-        stepper, senses = self._stepper, self._senses
+        stepper, poser = self._stepper, self._poser
+        senses: LegSenses | UnposedSenses = self._senses
+        if not poser.idle:
+            self._unposed.update(poser.pose)
+            senses = self._unposed
         stepper.step(senses, velocity if sensed.stand else np.zeros(3), self._parameters, self._robot.gait(sensed.gait))
         self._load[:] = stepper.load
         self._feet[:] = stepper.places(senses.up)
-        self._solve(self._feet, -senses.up)
+        self._pose(sensed)
+        self._solve(self._feet, -self._senses.up)
         self._posture = "walking" if stepper.walking else "standing"
-        if not sensed.stand and not stepper.walking:
+        if not sensed.stand and not stepper.walking and poser.idle:
             self._begin_lowering()
+
+    def _pose(self, sensed: WalkInput) -> None:
+        """Turn the wanted feet from the un-posed body into the body as it is to be posed."""
+        stepper, poser, clock = self._stepper, self._poser, self._stepper.clock
+        pose = poser.step(
+            sensed.posing if sensed.stand else NO_POSING,
+            self._senses.up,
+            walking=stepper.walking,
+            gait=clock.gait,
+            leg_phase=clock.leg_phase,
+            swing=clock.swing,
+            frequency=self._parameters.frequency,
+        )
+        if not poser.idle:
+            self._feet[:] = pose.inverse().transform(self._feet)
 
     def _begin_rising(self) -> None:
         """First fold the legs, feet under their stance, then push up."""
@@ -136,7 +162,7 @@ class Walker:
         lowest = self._sitting_height
         feet[:, 2] = float(np.clip(np.median(self._senses.feet[:, 2]), stance[0, 2], lowest))
         start = self._angles.copy()
-        self._solve(feet, np.array([0.0, 0.0, -1.0]))
+        self._solve(feet, -self._senses.up)
         self._joint_glide = Glide(start, self._angles, self._config.soft_start_speed)
         self._angles[:] = start
         self._foot_glide = Glide(feet, stance, self._config.rise_speed)
@@ -159,7 +185,7 @@ class Walker:
             self._turn_back(stand)
         assert self._foot_glide is not None
         self._feet[:] = self._foot_glide.step(self._dt)
-        self._solve(self._feet, np.array([0.0, 0.0, -1.0]))
+        self._solve(self._feet, -self._senses.up)
         progress = self._foot_glide.progress
         carried = min((progress if self._posture == "rising" else 1.0 - progress) / LOADING, 1.0)
         self._load[:] = carried * self._weight / self._load.size
@@ -234,6 +260,7 @@ class Walker:
             stability=self._stability.level,
             ground_plane=stepper.body.plane.copy(),
             ground_residual=float(stepper.body.residual),
+            unposed_from_body=self._poser.pose,
             posture=self._posture,
             reasons=reasons,
         )

@@ -76,6 +76,49 @@ class StabilityConfig(BaseModel):
     lift_static: float = 0.025  # m that must be left before a leg is lifted for manipulation
 
 
+class LevellingConfig(BaseModel):
+    """PID from the body's tilt (rad) to the turn over its feet that undoes it (rad)."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    proportional: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.2  # the legs answer one to one: 1 would ring
+    integral: Positive = 1.2  # 1/s
+    derivative: Annotated[float, Field(ge=0.0)] = 0.02  # s
+    rate_time: Positive = 0.05  # s, low-pass on the tilt's rate
+    largest: Positive = 0.25  # rad
+
+
+class AutomaticPose(BaseModel):
+    """How far the body leans from the legs in the air, as if all of one side swung together; m and rad."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    shift: float = 0.0  # away from the swinging feet
+    lift: float = 0.0
+    roll: float = 0.0  # swinging side up
+    pitch: float = 0.0  # swinging end up
+
+
+class PosingConfig(BaseModel):
+    """The body's pose against where walking alone carries it."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    largest_position: tuple[Positive, Positive, Positive] = (0.06, 0.06, 0.05)  # m, x, y, z
+    largest_rotation: tuple[Positive, Positive, Positive] = (0.25, 0.25, 0.30)  # rad, roll, pitch, yaw
+    position_rate: Positive = 0.06  # m/s
+    rotation_rate: Positive = 0.25  # rad/s
+    smoothing: tuple[Positive, Positive] = (0.2, 0.1)  # s; acceleration <= 2 v / T1, jerk <= 4 v / (T1 T2)
+    fade_time: Positive = 0.5  # s in which the automatic pose comes and goes
+    levelling: LevellingConfig = LevellingConfig()
+    automatic: dict[str, AutomaticPose] = {
+        "tripod": AutomaticPose(lift=0.02, roll=0.10),
+        "ripple": AutomaticPose(shift=0.02, roll=0.045, pitch=0.06),
+        "amble": AutomaticPose(lift=0.015),
+        "wave": AutomaticPose(shift=0.04, roll=0.045, pitch=0.06),
+    }
+
+
 class LocomotionConfig(BaseModel):
     """Everything the walker can be tuned with; distances m, times s."""
 
@@ -85,6 +128,7 @@ class LocomotionConfig(BaseModel):
     posture: PostureConfig = PostureConfig()
     foothold: FootholdConfig = FootholdConfig()
     stability: StabilityConfig = StabilityConfig()
+    posing: PosingConfig = PosingConfig()
     largest_stride: Positive = 0.20  # paper: 0.35 m/s at 1 Hz
     largest_speed: Positive = 0.35  # m/s (paper)
     stop_time: Positive = 0.4  # s from the largest velocity to zero

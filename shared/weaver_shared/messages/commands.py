@@ -21,6 +21,9 @@ class CommandName(StrEnum):
     SET_OVERRIDE = "set_override"  # name, value, seconds
     CLEAR_OVERRIDE = "clear_override"  # name
     SET_GAIT = "set_gait"  # name
+    SET_POSE = "set_pose"  # name: x, y, z (m), roll, pitch, yaw (rad); value
+    CLEAR_POSE = "clear_pose"  # name of one axis, or none for all
+    SET_POSING = "set_posing"  # name: automatic, levelling; value 1 or 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

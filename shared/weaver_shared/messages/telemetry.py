@@ -117,6 +117,8 @@ class LocomotionState:
     energy_margin: float  # m, height the mass must be lifted to tip over (normalised energy stability margin)
     ground_plane: Array  # (3,) a, b, c of z = a x + b y + c through the measured feet, in body before posing
     ground_residual: float  # m rms of the feet about that plane
+    pose_position: Array  # (3,) m of the posed body against its un-posed place
+    pose_rpy: Array  # (3,) rad, roll, pitch, yaw of the same
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

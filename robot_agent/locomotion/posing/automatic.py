@@ -1,0 +1,61 @@
+"""A pose that moves with the gait: the body leans and shifts away from the feet in the air, and rises over them.
+
+OpenSHC's automatic pose gives each gait phases and amplitudes; here each leg adds one bump during its own swing, in the
+direction its foot stands in, so that the same few amplitudes serve any gait and number of legs. The bump
+64 s^3 (1 - s)^3 begins and ends without speed or acceleration.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from weaver_shared.config.locomotion import AutomaticPose
+
+Array = NDArray[np.float64]
+
+SAMPLES = 600
+
+
+def bump(progress: Array) -> Array:
+    """Height 0..1 over the progress 0..1 of a swing; zero outside."""
+    s = np.clip(progress, 0.0, 1.0)
+    result: Array = 64.0 * (s * (1.0 - s)) ** 3
+    return result
+
+
+def leg_amplitudes(stance_in_body: Array, amplitudes: AutomaticPose) -> Array:
+    """What each leg's swing adds at its height to x, y, z, roll, pitch, yaw, (legs, 6) m and rad.
+
+    `amplitudes` are those of all legs on one side swinging together, which is why they are shared among the legs.
+    """
+    away = stance_in_body[:, :2] - stance_in_body[:, :2].mean(axis=0)
+    size = np.linalg.norm(away, axis=1)
+    forward, left = (away / np.where(size > 1e-9, size, 1.0)[:, None]).T
+    share = 2.0 / len(stance_in_body)
+    result = np.zeros((len(stance_in_body), 6))
+    result[:, 0], result[:, 1] = -amplitudes.shift * forward, -amplitudes.shift * left
+    result[:, 2] = amplitudes.lift
+    result[:, 3], result[:, 4] = amplitudes.roll * left, -amplitudes.pitch * forward
+    return result * share
+
+
+def steepest_slope(offset: Array, swing: float, amplitude: Array) -> Array:
+    """Largest change, (6,) per stride, of the sum over legs whose phases lie `offset` (legs,) apart."""
+    phases = np.linspace(0.0, 1.0, SAMPLES + 1)
+    path = bump((phases[:, None] + offset) % 1.0 / swing) @ amplitude
+    result: Array = np.abs(np.diff(path, axis=0)).max(axis=0) * SAMPLES
+    return result
+
+
+def automatic_pose(
+    leg_phase: Array, swing: float, amplitude: Array, slope: Array, rate: Array, frequency: float
+) -> Array:
+    """Sum over the legs, (6,), made smaller where a fast gait would exceed `rate` (6,) per s.
+
+    `leg_phase` (legs,) is 0 at lift-off; `swing` the fraction of a stride in the air; `amplitude` (legs, 6); `slope`
+    (6,) that of `steepest_slope`.
+    """
+    factor = np.minimum(1.0, rate / np.maximum(slope * frequency, 1e-12))
+    result: Array = factor * (bump(leg_phase / swing) @ amplitude)
+    return result

@@ -1,0 +1,65 @@
+"""What the operator wants of body and legs beyond walking. Answers are a value really applied, or why not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from math import isfinite
+
+from robot_agent.locomotion.posing.order import AXES, NO_POSING, PosingOrder, bounded
+from weaver_shared.config.locomotion import LocomotionConfig
+from weaver_shared.errors import InputError
+from weaver_shared.messages import Command
+from weaver_shared.robots import RobotDescription
+
+SWITCHES = ("automatic", "levelling")
+
+
+class MotionDesk:
+    """Every method takes a command and returns the value applied; all raise InputError with what is valid instead."""
+
+    def __init__(self, robot: RobotDescription, config: LocomotionConfig | None = None) -> None:
+        self._robot = robot
+        self._config = config or LocomotionConfig()
+        self.posing: PosingOrder = NO_POSING
+
+    def set_pose(self, command: Command) -> float:
+        """One axis of the body's pose: x, y, z in m, roll, pitch, yaw in rad; clamped to what may be asked."""
+        axis = self._axis(command.name)
+        if not isfinite(command.value):
+            raise InputError(f"{command.name} {command.value:g} is not a number")
+        manual = list(self.posing.manual)
+        manual[axis] = command.value
+        applied = bounded(tuple(manual), self._config.posing)
+        self._take(applied)
+        return float(applied[axis])
+
+    def clear_pose(self, command: Command) -> float:
+        """One axis, or without a name all, back to zero."""
+        kept = list(self.posing.manual) if command.name else [0.0] * len(AXES)
+        if command.name:
+            kept[self._axis(command.name)] = 0.0
+        self._take(kept)
+        return 0.0
+
+    def set_posing(self, command: Command) -> float:
+        """Switch automatic posing or levelling on (1) or off (0)."""
+        if command.name not in SWITCHES:
+            raise InputError(f"posing {command.name!r:.40} is unknown; known are {', '.join(SWITCHES)}")
+        if command.value not in (0.0, 1.0):
+            raise InputError(f"posing {command.name} is 1 for on or 0 for off, not {command.value:g}")
+        on = command.value == 1.0
+        if command.name == "automatic":
+            self.posing = replace(self.posing, automatic=on)
+        else:
+            self.posing = replace(self.posing, levelling=on)
+        return command.value
+
+    def _take(self, manual: Iterable[float]) -> None:
+        x, y, z, roll, pitch, yaw = map(float, manual)
+        self.posing = replace(self.posing, manual=(x, y, z, roll, pitch, yaw))
+
+    def _axis(self, name: str) -> int:
+        if name not in AXES:
+            raise InputError(f"axis {name!r:.40} is unknown; known are {', '.join(AXES)}")
+        return AXES.index(name)
