@@ -25,7 +25,7 @@ from weaver_console.scene.page_scene import PageScene
 from weaver_shared.errors import InputError, MessageError
 from weaver_shared.messages import CommandName, Waypoint
 
-TICK, THRIFTY_TICK = 0.05, 0.1
+TICK, THRIFTY_TICK = 0.05, 0.2
 """Seconds between two batches, and where the browser draws without a graphics card."""
 
 MOST_WAITING = 500

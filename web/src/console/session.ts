@@ -11,7 +11,8 @@ import { react } from "./reactions";
 import { receive } from "./receive";
 import { useConsole } from "./store";
 
-const FLUSH_PERIOD = 100; // ms between two updates of the panels
+/** ms between two updates of the panels: at least the first, and so long that they take a fifth of the time. */
+const FLUSH_PERIODS = { shortest: 100, longest: 500, share: 5 };
 const TICK_PERIOD = 250;
 const RETAIN_PERIOD = 500;
 const PING_PERIOD = 1000;
@@ -24,6 +25,7 @@ let waiting: Incoming[] = [];
 let unansweredPings = 0;
 let untakenFrames = 0;
 let flushTimer: ReturnType<typeof setTimeout> | undefined;
+let flushPeriod = FLUSH_PERIODS.shortest;
 
 const socket = new ReconnectingSocket(() => socketAddress(page), { opened, received, lost });
 
@@ -77,7 +79,7 @@ function received(messages: Incoming[]): void {
   waiting.push(...messages);
   untakenFrames++;
   if (messages.some((message) => message.type !== "value")) flush();
-  else flushTimer ??= setTimeout(flush, FLUSH_PERIOD);
+  else flushTimer ??= setTimeout(flush, flushPeriod);
 }
 
 function flush(): void {
@@ -85,9 +87,22 @@ function flush(): void {
   flushTimer = undefined;
   const messages = waiting;
   waiting = [];
-  if (messages.length > 0) show(messages);
+  if (messages.length > 0) {
+    const began = performance.now();
+    show(messages);
+    afterPainting(() => (flushPeriod = periodOf(performance.now() - began)));
+  }
   // NOTE: told only after the work, so that a busy page is sent less rather than later.
   for (; untakenFrames > 0; untakenFrames--) send({ type: "taken" });
+}
+
+function periodOf(cost: number): number {
+  const { shortest, longest, share } = FLUSH_PERIODS;
+  return Math.min(longest, Math.max(shortest, share * cost));
+}
+
+function afterPainting(then: () => void): void {
+  requestAnimationFrame(() => setTimeout(then, 0));
 }
 
 function show(messages: readonly Incoming[]): void {

@@ -1,4 +1,5 @@
 /** What happened, newest first: the robots' own events, the console's, and who commanded what. */
+import { memo } from "react";
 import { Panel } from "../components/Panel";
 import { useConsole } from "../console/store";
 import type { LogEntry } from "../protocol/wire";
@@ -23,7 +24,7 @@ export function EventLog() {
   );
 }
 
-function EventLine({ event }: { event: LogEntry }) {
+const EventLine = memo(function EventLine({ event }: { event: LogEntry }) {
   return (
     <p className="event" data-severity={event.severity}>
       <time dateTime={new Date(1000 * event.time).toISOString()}>{clock(event.time)}</time>
@@ -35,8 +36,10 @@ function EventLine({ event }: { event: LogEntry }) {
       <span>{event.text}</span>
     </p>
   );
-}
+});
+
+const CLOCK = new Intl.DateTimeFormat([], { timeStyle: "medium", hour12: false });
 
 function clock(unixSeconds: number): string {
-  return new Date(1000 * unixSeconds).toLocaleTimeString([], { hour12: false });
+  return CLOCK.format(1000 * unixSeconds);
 }

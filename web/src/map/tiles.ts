@@ -68,13 +68,12 @@ export function decodeTile(message: TileMessage, received: number): Tile | null 
   const [sigma, roughness, stepHeight, age] = layers;
   if (elevation.length !== 2 * cells || !sigma || !roughness || !stepHeight || !age) return null;
   if (layers.some((layer) => layer.length !== cells)) return null;
-  const view = new DataView(elevation.buffer);
   return {
     i: message.i,
     j: message.j,
     size: message.size,
     cell: message.cell,
-    elevation: Int16Array.from({ length: cells }, (_, k) => view.getInt16(2 * k, true)),
+    elevation: new Int16Array(elevation.buffer, elevation.byteOffset, cells), // little-endian, as every browser's machine
     sigma,
     roughness,
     stepHeight,
@@ -107,5 +106,7 @@ function index(value: number | undefined): number {
 
 function bytesOf(base64: string): Uint8Array {
   const text = atob(base64);
-  return Uint8Array.from(text, (letter) => letter.charCodeAt(0));
+  const bytes = new Uint8Array(text.length);
+  for (let k = 0; k < bytes.length; k++) bytes[k] = text.charCodeAt(k);
+  return bytes;
 }

@@ -1,4 +1,4 @@
-/** Draws the map whenever something on it changed, at the screen's pace and resolution. */
+/** Draws the map whenever something on it changed, at the screen's resolution, and at its pace under a hand. */
 import { useComputedColorScheme } from "@mantine/core";
 import { type RefObject, useEffect, useMemo } from "react";
 import { freshnessOf } from "../console/useLatest";
@@ -11,6 +11,8 @@ import type { Ink } from "./strokes";
 import type { View } from "./projection";
 import { renderMap } from "./render";
 import { TilePainter } from "./tilePainter";
+
+const LOOK_PERIOD = 60; // ms
 
 export const INKS: Record<"light" | "dark", Ink> = {
   light: {
@@ -52,8 +54,8 @@ export function useMapDrawing(
     const painter = new TilePainter();
     let drawn: readonly unknown[] = [];
     let frame = 0;
-    const draw = () => {
-      frame = requestAnimationFrame(draw);
+    const look = () => {
+      frame = 0;
       const state = useConsole.getState();
       const { draft, dragging } = useDraft.getState();
       const robot = latest(state, "tele/state")?.value;
@@ -79,8 +81,17 @@ export function useMapDrawing(
         ink,
       });
     };
-    draw();
-    return () => cancelAnimationFrame(frame);
+    // Looking costs next to nothing, asking the browser for a picture 60 times a second does: only a hand needs that.
+    const soon = () => (frame ||= requestAnimationFrame(look));
+    const timer = setInterval(look, LOOK_PERIOD);
+    const hand = ["pointermove", "pointerdown", "pointerup", "wheel", "keydown"] as const;
+    for (const kind of hand) context.canvas.parentElement?.addEventListener(kind, soon, { passive: true });
+    look();
+    return () => {
+      clearInterval(timer);
+      cancelAnimationFrame(frame);
+      for (const kind of hand) context.canvas.parentElement?.removeEventListener(kind, soon);
+    };
   }, [canvas, view, scale, ink, crossHair]);
 }
 
