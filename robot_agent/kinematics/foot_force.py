@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.kinematics.chain import foot_jacobian, solve_symmetric
+from robot_agent.kinematics.chain import solve_symmetric
 from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
@@ -34,29 +34,21 @@ def link_gravity_torque(origins: Array, axes: Array, link_mass: Array, gravity_i
 
 
 @kernel
-def foot_forces(
-    origins: Array, axes: Array, link_mass: Array, gravity_in_body: Array, joint_torque: Array, force: Array
-) -> None:
-    """Fill `force` (legs, 3) N in body, ground on foot, from servo torques (legs, n) N m.
+def foot_force(jacobian: Array, joint_torque: Array, own_torque: Array, force: Array) -> None:
+    """Fill `force` (3,) N in body, ground on foot, from the servo torques (n,) N m of a leg.
 
-    Damped least squares over the joints: F = -(J J^T + damping)^-1 J (tau - tau_gravity).
+    `jacobian` is (3, n), `own_torque` (n,) what the links need. Damped least squares over the joints:
+    F = -(J J^T + damping)^-1 J (tau - tau_gravity).
     """
-    legs, n = axes.shape[0], axes.shape[1]
-    jacobian, normal, right, solution = np.empty((3, n)), np.empty((3, 3)), np.empty(3), np.zeros(3)
-    own = np.empty(n)
-    for leg in range(legs):
-        foot_jacobian(origins[leg], axes[leg], jacobian)
-        link_gravity_torque(origins[leg], axes[leg], link_mass, gravity_in_body, own)
-        for a in range(3):
-            right[a] = 0.0
+    n = joint_torque.size
+    normal, right = np.empty((3, 3)), np.empty(3)
+    for a in range(3):
+        right[a] = 0.0
+        for i in range(n):
+            right[a] -= jacobian[a, i] * (joint_torque[i] - own_torque[i])
+        for b in range(3):
+            normal[a, b] = DAMPING if a == b else 0.0
             for i in range(n):
-                right[a] -= jacobian[a, i] * (joint_torque[leg, i] - own[i])
-            for b in range(3):
-                normal[a, b] = DAMPING if a == b else 0.0
-                for i in range(n):
-                    normal[a, b] += jacobian[a, i] * jacobian[b, i]
-        if solve_symmetric(normal, right, solution):
-            for a in range(3):
-                force[leg, a] = solution[a]
-        else:
-            force[leg] = 0.0
+                normal[a, b] += jacobian[a, i] * jacobian[b, i]
+    if not solve_symmetric(normal, right, force):
+        force[0], force[1], force[2] = 0.0, 0.0, 0.0

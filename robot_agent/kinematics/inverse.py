@@ -17,7 +17,7 @@ TOLERANCE = 1e-6
 def solve_leg(
     dh: Array,
     limits: Array,
-    yaw_roll_pitch: bool,
+    closed_form: int,
     hip_in_body: Array,
     hip_axes: Array,
     foot_in_body: Array,
@@ -33,7 +33,7 @@ def solve_leg(
         if not (np.isfinite(foot_in_body[k]) and np.isfinite(direction[k])):
             solution[:] = previous
             return np.inf
-    if yaw_roll_pitch and solve_closed_form(dh, limits, hip_in_body, hip_axes, foot_in_body, direction, solution):
+    if closed_form == 1 and solve_closed_form(dh, limits, hip_in_body, hip_axes, foot_in_body, direction, solution):
         return 0.0
     solution[:] = previous
     return solve_damped(dh, limits, hip_in_body, hip_axes, foot_in_body, direction, TOLERANCE, solution)
@@ -43,7 +43,7 @@ def solve_leg(
 def solve_legs(
     dh: Array,
     limits: Array,
-    yaw_roll_pitch: bool,
+    closed_form: int,
     hips: Array,
     hip_axes: Array,
     feet_in_body: Array,
@@ -57,7 +57,7 @@ def solve_legs(
         distance_left[leg] = solve_leg(
             dh,
             limits,
-            yaw_roll_pitch,
+            closed_form,
             hips[leg],
             hip_axes[leg],
             feet_in_body[leg],

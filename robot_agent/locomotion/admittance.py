@@ -51,8 +51,3 @@ def step_admittance(state: Array, force: Array, step: Array, largest_force: floa
             offset = largest_offset if offset > 0.0 else -largest_offset
             rate = 0.0
         state[leg, 0], state[leg, 1] = offset, rate
-
-
-def damping_of(mass: float, ratio: float, stiffness: float, smallest: float) -> float:
-    """N s/m: the asked ratio of critical damping, but never less than the closed loop needs."""
-    return max(2.0 * ratio * sqrt(mass * stiffness), smallest)

@@ -1,14 +1,11 @@
 """The velocity really walked: within every leg's stride, within the largest speed, and without jumps."""
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
 from robot_agent.kinematics.compiled import kernel
+from robot_agent.locomotion.reasons import STRIDE, VELOCITY
+from robot_agent.locomotion.walk_state import Array, Record
 from robot_agent.locomotion.workspace import velocity_scale
-
-Array = NDArray[np.float64]
 
 STILL = 1e-4
 """m/s or rad/s under which a command means stop."""
@@ -17,22 +14,27 @@ TURN_RADIUS = 0.4
 
 
 @kernel
-def limit_velocity(
-    wanted: Array,
-    stance: Array,
-    radius: Array,
-    duty: float,
-    frequency: float,
-    largest_stride: float,
-    largest_speed: float,
-    result: Array,
-) -> float:
-    """Fill `result` (3,) with `wanted` (vx, vy, turn) shortened to what the legs can do; returns the factor applied."""
+def follow_velocity(walk: Record) -> None:
+    """Bring the commanded velocity nearer to the ordered one, within what the legs can do."""
+    gait, settings = walk.gait, walk.settings
+    if limit_velocity(walk) < 0.999:
+        walk.answer.reasons |= STRIDE
+    speed_up, slow_down = settings.largest_speed / settings.start_time, settings.largest_speed / settings.stop_time
+    approach(gait.commanded, gait.limited, speed_up, slow_down, walk.model.dt)
+
+
+@kernel
+def limit_velocity(walk: Record) -> float:
+    """Shorten the ordered velocity (vx, vy, turn) to what the legs can do; returns the factor applied."""
+    legs, gait, settings = walk.model.legs, walk.gait, walk.settings
+    wanted, result = walk.orders.velocity, gait.limited
     size = np.sqrt(wanted[0] ** 2 + wanted[1] ** 2 + (TURN_RADIUS * wanted[2]) ** 2)
-    scale = 1.0 if size <= largest_speed else largest_speed / size
+    scale = 1.0 if size <= settings.largest_speed else settings.largest_speed / size
     for k in range(3):
         result[k] = scale * wanted[k]
-    further = velocity_scale(result, stance, radius, duty, frequency, largest_stride)
+    further = velocity_scale(
+        result, walk.feet.stance[:legs], walk.model.radius, gait.duty, gait.frequency, settings.largest_stride
+    )
     for k in range(3):
         result[k] *= further
     return scale * further
@@ -51,9 +53,16 @@ def approach(current: Array, target: Array, speed_up: float, slow_down: float, d
         current[k] += share * (target[k] - current[k])
 
 
-def clean_velocity(wanted: Array) -> tuple[Array, bool]:
-    """The command as three finite numbers, zero where it is none or hardly any; and whether it was usable."""
-    velocity = np.asarray(wanted, dtype=np.float64).reshape(-1)
-    if velocity.size != 3 or not np.isfinite(velocity).all():
-        return np.zeros(3), False
-    return (velocity if np.abs(velocity).max() > STILL else np.zeros(3)), True
+@kernel
+def clean_velocity(walk: Record) -> None:
+    """An order that is not a number, and one that is hardly any velocity, mean stop."""
+    velocity = walk.orders.velocity
+    largest = 0.0
+    for k in range(3):
+        if not np.isfinite(velocity[k]):
+            walk.answer.reasons |= VELOCITY
+            velocity[:] = 0.0
+            return
+        largest = max(largest, abs(velocity[k]))
+    if largest <= STILL:
+        velocity[:] = 0.0

@@ -1,39 +1,40 @@
 """Where each foot belongs: it stands and is left behind by the body, or swings, reaches for the ground and lands.
 
 A standing foot keeps the height it found. A swinging foot that touches early stops there; one that is late goes on
-down, up to a limit, while the gait waits.
+down, up to a limit, while the gait waits. All places are in the body as it would be without posing.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.stride import foot_velocity, stride_of, swing_nodes, swing_point
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+from robot_agent.locomotion.walk_state import Array, Record
 
 STAND, SWING, REACH, HANG = 0, 1, 2, 3
 """HANG: reached as far as it may without finding ground; carries nothing until its next swing."""
 
 
-class Feet:
-    """State of all feet, in body coordinates."""
+@kernel
+def stand_at(walk: Record, places: Array) -> None:
+    """Put every foot down at `places` (legs, 3)."""
+    feet = walk.feet
+    for leg in range(walk.model.legs):
+        feet.mode[leg] = STAND
+        feet.lifted[leg] = False
+        feet.place[leg, :] = places[leg]
+        feet.anchor[leg, :] = places[leg]
 
-    def __init__(self, legs: int) -> None:
-        self.mode = np.zeros(legs, dtype=np.int64)
-        self.place = np.zeros((legs, 3))  # wanted foot centre, before the admittance
-        self.lift_off = np.zeros((legs, 3))
-        self.anchor = np.zeros((legs, 3))  # where each foot last stood, measured, carried along by the body's motion
-        self.lifted = np.zeros(legs, dtype=np.bool_)  # has already swung in this stride
-        self.swing_height = np.zeros(legs)
-        self.reached = np.zeros(legs)  # m below the expected ground
 
-    def stand_at(self, places: Array) -> None:
-        self.mode[:] = STAND
-        self.place[:] = places
-        self.anchor[:] = places
-        self.lifted[:] = False
+@kernel
+def carry_feet(walk: Record) -> None:
+    """Leave the feet on the ground behind as the body moves, and with them the places that belong to the ground."""
+    feet, body, dt = walk.feet, walk.body, walk.model.dt
+    legs = walk.model.legs
+    for leg in range(legs):
+        if feet.mode[leg] == STAND or feet.mode[leg] == HANG:
+            carry(feet.place[leg : leg + 1], body.whole_linear, body.whole_angular, dt)
+    carry(feet.anchor[:legs], body.whole_linear, body.whole_angular, dt)
+    carry(feet.lift_off[:legs], body.linear, body.angular, dt)
 
 
 @kernel
@@ -56,127 +57,108 @@ def carry(points: Array, linear: Array, angular: Array, dt: float) -> None:
 
 
 @kernel
-def carry_standing(mode: NDArray[np.int64], place: Array, linear: Array, angular: Array, dt: float) -> None:
-    """`carry` for the feet on the ground alone."""
-    for leg in range(mode.size):
-        if mode[leg] == STAND or mode[leg] == HANG:
-            carry(place[leg : leg + 1], linear, angular, dt)
-
-
-@kernel
-def count_mode(mode: NDArray[np.int64], wanted: int) -> int:
+def count_mode(walk: Record, wanted: int) -> int:
     """How many feet are in a mode."""
     count = 0
-    for leg in range(mode.size):
-        count += mode[leg] == wanted
+    for leg in range(walk.model.legs):
+        count += walk.feet.mode[leg] == wanted
     return count
 
 
 @kernel
-def until_next_lift(mode: NDArray[np.int64], lifted: Flags, leg_phase: Array, swing: float) -> float:
+def until_next_lift(walk: Record) -> float:
     """Fraction of a stride until the next foot is due to lift off."""
+    feet, gait = walk.feet, walk.gait
     least = 1.0
-    for leg in range(mode.size):
-        if leg_phase[leg] >= swing or (not lifted[leg] and (mode[leg] == STAND or mode[leg] == HANG)):
-            least = min(least, 1.0 - leg_phase[leg])
+    for leg in range(walk.model.legs):
+        due = not feet.lifted[leg] and (feet.mode[leg] == STAND or feet.mode[leg] == HANG)
+        if due or gait.leg_phase[leg] >= 1.0 - gait.duty:
+            least = min(least, 1.0 - gait.leg_phase[leg])
     return least
 
 
 @kernel
-def take_anchors(
-    mode: NDArray[np.int64], contact: Flags, measured: Array, place: Array, feel_ground: bool, anchor: Array
-) -> None:
+def take_anchors(walk: Record) -> None:
     """Standing feet are where they are measured to be; without a sense of ground, where they are wanted."""
-    for leg in range(mode.size):
-        if mode[leg] == STAND and (contact[leg] or not feel_ground):
+    feet, senses, feel_ground = walk.feet, walk.senses, walk.settings.feel_ground
+    for leg in range(walk.model.legs):
+        if feet.mode[leg] == STAND and (senses.contact[leg] or not feel_ground):
             for k in range(3):
-                anchor[leg, k] = measured[leg, k] if feel_ground else place[leg, k]
+                feet.anchor[leg, k] = senses.unposed_feet[leg, k] if feel_ground else feet.place[leg, k]
 
 
 @kernel
-def lift(
-    leg: int, mode: NDArray[np.int64], place: Array, lift_off: Array, offset: Array, up: Array, height: float,
-    swing_height: Array, lifted: Flags, reached: Array,
-) -> None:  # fmt: skip
-    """Begin a swing where the foot really is: the impedance's offset (legs, 2) goes into the path, and is cleared."""
+def lift(walk: Record, leg: int) -> None:
+    """Begin a swing where the foot really is: the impedance's offset goes into the path, and is cleared."""
+    feet, offset, up = walk.feet, walk.load.offset, walk.senses.unposed_up
     for k in range(3):
-        place[leg, k] += offset[leg, 0] * up[k]
-        lift_off[leg, k] = place[leg, k]
+        feet.place[leg, k] += offset[leg, 0] * up[k]
+        feet.lift_off[leg, k] = feet.place[leg, k]
     offset[leg, 0], offset[leg, 1] = 0.0, 0.0
-    mode[leg] = SWING
-    swing_height[leg] = height
-    lifted[leg] = True
-    reached[leg] = 0.0
+    feet.mode[leg] = SWING
+    feet.swing_height[leg] = walk.gait.height
+    feet.lifted[leg] = True
+    feet.reached[leg] = 0.0
 
 
 @kernel
-def move_swinging(
-    mode: NDArray[np.int64],
-    place: Array,
-    lift_off: Array,
-    stance: Array,
-    plane: Array,
-    up: Array,
-    velocity: Array,
-    pace: float,
-    swing_height: Array,
-    reached: Array,
-    contact: Flags,
-    leg_phase: Array,
-    duty: float,
-    frequency: float,
-    touchdown_speed: float,
-    reach_down: float,
-    earliest_contact: float,
-    feel_ground: bool,
-    dt: float,
-    lowest: float,
-    highest: float,
-) -> int:
-    """Move every foot in the air by one tick; returns how many still reach for the ground.
+def move_swinging(walk: Record) -> None:
+    """Move every foot in the air by one tick.
 
-    `stance` (legs, 3) is the middle of each foot's stance, `plane` (3,) the expected ground, `leg_phase` (legs,) 0 at
-    lift-off. The body moves with `pace` times `velocity`; paths are planned for full pace, since the gait slows with
-    the body. Footholds stay between `lowest` and `highest`, z in body.
+    The body moves with the gait's pace; paths are planned for full pace, since the gait slows with the body.
     """
-    first, second = np.empty((5, 3)), np.empty((5, 3))
-    foothold, ground, stride = np.empty(3), np.empty(3), np.empty(3)
-    reaching = 0
-    swing = 1.0 - duty
-    for leg in range(mode.size):
-        if mode[leg] != SWING and mode[leg] != REACH:
+    feet, gait, senses = walk.feet, walk.gait, walk.senses
+    earliest, feel_ground = walk.settings.foothold.earliest_contact, walk.settings.feel_ground
+    for leg in range(walk.model.legs):
+        if feet.mode[leg] != SWING and feet.mode[leg] != REACH:
             continue
-        progress = leg_phase[leg] / swing
-        touches = feel_ground and contact[leg]
-        if mode[leg] == SWING and touches and earliest_contact < progress:
-            mode[leg] = STAND
-            continue
-        foot_velocity(velocity, stance[leg], ground)
-        if mode[leg] == SWING and (progress < 1.0 or not feel_ground):
-            stride_of(velocity, stance[leg], duty, frequency, stride)
-            for k in range(2):
-                foothold[k] = stance[leg, k] + 0.5 * stride[k]
-            z = plane[0] * foothold[0] + plane[1] * foothold[1] + plane[2]
-            foothold[2] = min(max(z, lowest), highest)
-            half_time = 0.5 * swing / frequency
-            if progress >= 1.0:
-                for k in range(3):
-                    place[leg, k] = foothold[k] + ground[k] * (progress - 1.0) * 2.0 * half_time
-                mode[leg] = STAND
-                continue
-            speed = touchdown_speed if feel_ground else 0.0
-            swing_nodes(lift_off[leg], foothold, up, swing_height[leg], ground, speed, half_time, first, second)
-            swing_point(progress, first, second, place[leg])
-            continue
-        if touches:
-            mode[leg] = STAND
-            continue
-        mode[leg] = REACH
-        for k in range(3):
-            place[leg, k] += (pace * ground[k] - touchdown_speed * up[k]) * dt
-        reached[leg] += touchdown_speed * dt
-        if reached[leg] > reach_down or place[leg, 2] < lowest:
-            mode[leg] = HANG
+        progress = gait.leg_phase[leg] / (1.0 - gait.duty)
+        touches = feel_ground and senses.contact[leg]
+        if feet.mode[leg] == SWING and touches and earliest < progress:
+            feet.mode[leg] = STAND
+        elif feet.mode[leg] == SWING and (progress < 1.0 or not feel_ground):
+            _swing(walk, leg, progress)
+        elif touches:
+            feet.mode[leg] = STAND
         else:
-            reaching += 1
-    return reaching
+            _reach(walk, leg)
+
+
+@kernel
+def _swing(walk: Record, leg: int, progress: float) -> None:
+    """Along the swing curves towards the foothold; without a sense of ground the foot lands when the swing ends."""
+    feet, gait, model, plane = walk.feet, walk.gait, walk.model, walk.body.plane
+    foothold, ground, stride = np.empty(3), np.empty(3), np.empty(3)
+    foot_velocity(gait.commanded, feet.stance[leg], ground)
+    stride_of(gait.commanded, feet.stance[leg], gait.duty, gait.frequency, stride)
+    for k in range(2):
+        foothold[k] = feet.stance[leg, k] + 0.5 * stride[k]
+    z = plane[0] * foothold[0] + plane[1] * foothold[1] + plane[2]
+    foothold[2] = min(max(z, model.down_limit), model.up_limit)
+    half_time = 0.5 * (1.0 - gait.duty) / gait.frequency
+    if progress >= 1.0:
+        for k in range(3):
+            feet.place[leg, k] = foothold[k] + ground[k] * (progress - 1.0) * 2.0 * half_time
+        feet.mode[leg] = STAND
+        return
+    first, second = np.empty((5, 3)), np.empty((5, 3))
+    speed = walk.settings.foothold.touchdown_speed if walk.settings.feel_ground else 0.0
+    swing_nodes(
+        feet.lift_off[leg], foothold, walk.senses.unposed_up, feet.swing_height[leg], ground, speed, half_time,
+        first, second,
+    )  # fmt: skip
+    swing_point(progress, first, second, feet.place[leg])
+
+
+@kernel
+def _reach(walk: Record, leg: int) -> None:
+    """On down, below the expected ground."""
+    feet, gait, settings, dt = walk.feet, walk.gait, walk.settings.foothold, walk.model.dt
+    up, ground = walk.senses.unposed_up, np.empty(3)
+    foot_velocity(gait.commanded, feet.stance[leg], ground)
+    feet.mode[leg] = REACH
+    for k in range(3):
+        feet.place[leg, k] += (gait.pace * ground[k] - settings.touchdown_speed * up[k]) * dt
+    feet.reached[leg] += settings.touchdown_speed * dt
+    if feet.reached[leg] > settings.reach_down or feet.place[leg, 2] < walk.model.down_limit:
+        feet.mode[leg] = HANG

@@ -1,35 +1,29 @@
 """All legs' impedance: how far each foot gives way to the force it feels beyond its share of the weight (eq. 6)."""
 
-from __future__ import annotations
+from math import sqrt
 
-import numpy as np
-from numpy.typing import NDArray
-
-from robot_agent.locomotion.admittance import damping_of, step_admittance, transition
-from weaver_shared.config.locomotion import AdmittanceConfig
-
-Array = NDArray[np.float64]
+from robot_agent.kinematics.compiled import kernel
+from robot_agent.locomotion.admittance import step_admittance, transition
+from robot_agent.locomotion.feet import STAND
+from robot_agent.locomotion.walk_state import Record
 
 
-class LegImpedance:
-    """Offsets along gravity, (legs, 2): m upwards and m/s."""
+@kernel
+def give_way(walk: Record) -> None:
+    """One tick of every leg's offset along gravity under the force it feels less the force expected."""
+    legs, load, config = walk.model.legs, walk.load, walk.settings.admittance
+    stiffness = walk.gait.stiffness
+    if stiffness != load.stiffness:
+        damping = damping_of(config.virtual_mass, config.damping_ratio, stiffness, config.smallest_damping)
+        transition(config.virtual_mass, damping, stiffness, walk.model.dt, load.step)
+        load.stiffness = stiffness
+    for leg in range(legs):
+        standing = walk.feet.mode[leg] == STAND
+        load.surplus[leg] = walk.senses.force[leg] - load.load[leg] if standing else 0.0
+    step_admittance(load.offset[:legs], load.surplus[:legs], load.step, config.largest_force, config.largest_offset)
 
-    def __init__(self, legs: int, config: AdmittanceConfig, dt: float) -> None:
-        self._config = config
-        self._dt = dt
-        self._step = np.zeros((2, 3))
-        self._stiffness = 0.0
-        self.offset = np.zeros((legs, 2))
 
-    def clear(self) -> None:
-        self.offset[:] = 0.0
-
-    def step(self, surplus: Array, stiffness: float) -> None:
-        """One tick under `surplus` (legs,) N, force felt less force expected, with `stiffness` N/m."""
-        config = self._config
-        if stiffness != self._stiffness:
-            mass = config.virtual_mass
-            damping = damping_of(mass, config.damping_ratio, stiffness, config.smallest_damping)
-            transition(mass, damping, stiffness, self._dt, self._step)
-            self._stiffness = stiffness
-        step_admittance(self.offset, surplus, self._step, config.largest_force, config.largest_offset)
+@kernel
+def damping_of(mass: float, ratio: float, stiffness: float, smallest: float) -> float:
+    """N s/m: the asked ratio of critical damping, but never less than the closed loop needs."""
+    return max(2.0 * ratio * sqrt(mass * stiffness), smallest)

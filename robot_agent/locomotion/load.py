@@ -1,13 +1,11 @@
 """How the robot's weight is shared among its feet: the least forces in balance with gravity."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from robot_agent.kinematics import solve_symmetric
 from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.feet import REACH, STAND, SWING
-
-Array = NDArray[np.float64]
+from robot_agent.locomotion.walk_state import Array, Record
 
 SMALLEST_SHARE = 0.05
 """Of a foot about to lift off, so that three feet always balance."""
@@ -52,32 +50,36 @@ def share_load(feet_in_body: Array, centre_of_mass: Array, up: Array, share: Arr
 
 
 @kernel
-def ease_share(
-    mode: NDArray[np.int64],
-    lifted: NDArray[np.bool_],
-    leg_phase: Array,
-    lifting: bool,
-    stride_time: float,
-    load_time: float,
-    dt: float,
-    share: Array,
-) -> None:
-    """Move each foot's `share` (legs,) of the weight: on over `load_time` s after touch-down, off before lift-off."""
-    for leg in range(share.size):
-        if mode[leg] == SWING or mode[leg] == REACH:
-            share[leg] = 0.0
-            continue
-        wanted = 1.0 if mode[leg] == STAND else 0.0
-        if lifting and not lifted[leg]:
-            wanted = min(wanted, max((1.0 - leg_phase[leg]) * stride_time / load_time, SMALLEST_SHARE))
-        share[leg] += min(max(wanted - share[leg], -dt / load_time), dt / load_time)
+def carry_load(walk: Record) -> None:
+    """Share the weight among the standing feet, easing it on after touch-down and off before lift-off."""
+    legs, feet, load, senses = walk.model.legs, walk.feet, walk.load, walk.senses
+    ease_share(walk)
+    share_load(
+        feet.place[:legs],
+        senses.unposed_centre,
+        senses.unposed_up,
+        load.share[:legs],
+        walk.model.weight,
+        load.load[:legs],
+    )
 
 
 @kernel
-def surplus_force(mode: NDArray[np.int64], force: Array, load: Array, surplus: Array) -> None:
-    """Fill `surplus` (legs,) N: what standing feet feel beyond their load; nothing for the others."""
-    for leg in range(surplus.size):
-        surplus[leg] = force[leg] - load[leg] if mode[leg] == STAND else 0.0
+def ease_share(walk: Record) -> None:
+    """Move each foot's share of the weight: on over `load_time` after touch-down, off before lift-off."""
+    feet, gait, share = walk.feet, walk.gait, walk.load.share
+    load_time = walk.settings.foothold.load_time
+    largest = walk.model.dt / load_time
+    stride_time = 1.0 / gait.frequency
+    lifting = gait.walking and not gait.halted
+    for leg in range(walk.model.legs):
+        if feet.mode[leg] == SWING or feet.mode[leg] == REACH:
+            share[leg] = 0.0
+            continue
+        wanted = 1.0 if feet.mode[leg] == STAND else 0.0
+        if lifting and not feet.lifted[leg]:
+            wanted = min(wanted, max((1.0 - gait.leg_phase[leg]) * stride_time / load_time, SMALLEST_SHARE))
+        share[leg] += min(max(wanted - share[leg], -largest), largest)
 
 
 @kernel

@@ -4,40 +4,19 @@ An MX servo is a spring: it holds a torque only with a position error of torque 
 target late by its back-EMF damping over stiffness. Both are added to the target, so that feet are where they belong.
 """
 
-import numpy as np
-from numpy.typing import NDArray
-
-from robot_agent.kinematics import foot_jacobian, link_gravity_torque
 from robot_agent.kinematics.compiled import kernel
-
-Array = NDArray[np.float64]
+from robot_agent.locomotion.walk_state import Record
 
 
 @kernel
-def lead_servos(
-    wanted: Array,
-    rate: Array,
-    origins: Array,
-    axes: Array,
-    link_mass: Array,
-    up: Array,
-    load: Array,
-    stiffness: Array,
-    lag: Array,
-    limits: Array,
-    target: Array,
-) -> None:
-    """Fill `target` (legs, n) from `wanted` angles, their `rate` rad/s and the expected `load` (legs,) N on each foot.
-
-    `stiffness` (n,) N m/rad and `lag` (n,) s describe the servos; targets stay within `limits` (n, 2).
-    """
-    legs, n = wanted.shape
-    jacobian, own = np.empty((3, n)), np.empty(n)
-    for leg in range(legs):
-        foot_jacobian(origins[leg], axes[leg], jacobian)
-        link_gravity_torque(origins[leg], axes[leg], link_mass, -up, own)
-        for i in range(n):
+def lead_servos(walk: Record) -> None:
+    """Set each servo's target from its wanted angle, the rate of that and the expected load on the foot."""
+    model, senses, joint, up = walk.model, walk.senses, walk.joint, walk.senses.up
+    for leg in range(model.legs):
+        jacobian, load = senses.jacobian[leg], walk.load.load[leg]
+        for i in range(model.joints):
             lever = jacobian[0, i] * up[0] + jacobian[1, i] * up[1] + jacobian[2, i] * up[2]
-            torque = own[i] - lever * load[leg]
-            value = wanted[leg, i] + torque / stiffness[i] + lag[i] * rate[leg, i]
-            target[leg, i] = min(max(value, limits[i, 0]), limits[i, 1])
+            torque = senses.own_torque[leg, i] - lever * load
+            rate = (joint.wanted[leg, i] - joint.previous[leg, i]) / model.dt
+            value = joint.wanted[leg, i] + torque / model.servo_stiffness[i] + model.servo_lag[i] * rate
+            joint.target[leg, i] = min(max(value, model.limits[i, 0]), model.limits[i, 1])

@@ -2,27 +2,34 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.kinematics import LegModel, limit_joint_speed, solve_legs
-from robot_agent.locomotion.body_velocity import clean_velocity
-from robot_agent.locomotion.energy_margin import energy_margin
-from robot_agent.locomotion.feet import REACH, STAND, SWING
-from robot_agent.locomotion.gait_parameters import SteadyParameters
-from robot_agent.locomotion.posing.order import NO_POSING
+from robot_agent.kinematics import LegModel
+from robot_agent.locomotion.feet import REACH, SWING
+from robot_agent.locomotion.legs_tick import (
+    believe,
+    foot_tick,
+    joint_tick,
+    place_tick,
+    sense_tick,
+    solve_feet,
+    step_tick,
+    walk_tick,
+)
+from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from robot_agent.locomotion.posing.poser import Poser
-from robot_agent.locomotion.posing.unposed import UnposedSenses
+from robot_agent.locomotion.reasons import sentences
 from robot_agent.locomotion.rising import Glide
-from robot_agent.locomotion.senses import LegSenses
-from robot_agent.locomotion.servo_lead import lead_servos
-from robot_agent.locomotion.stability import static_margin
 from robot_agent.locomotion.stability_watch import StabilityWatch, is_static
-from robot_agent.locomotion.stepper import Stepper
+from robot_agent.locomotion.stepper import stand
 from robot_agent.locomotion.walk_tick import WalkInput, WalkOutput
+from robot_agent.locomotion.walker_memory import walker_memory
 from weaver_shared.config.locomotion import LocomotionConfig
-from weaver_shared.frames import GRAVITY
 from weaver_shared.robots import RobotDescription
+from weaver_shared.robots.gaits import Gait
 
 Array = NDArray[np.float64]
 
@@ -38,135 +45,152 @@ class Walker:
         self._config = config = config or robot.locomotion
         self._dt = dt
         self._model = model = LegModel.of_robot(robot, speed_fraction=config.speed_fraction)
-        legs, joints = model.leg_count, model.joints_per_leg
-        self._senses = LegSenses(robot, model, config, dt)
-        self._stepper = Stepper(robot, model, config, dt)
-        self._parameters = SteadyParameters(config, dt)
-        self._unposed = UnposedSenses(self._senses)
-        self._poser = Poser(config, model, robot.stance_in_body, np.array(robot.body.centre_of_mass_in_body), dt)
-        self._weight = robot.mass * GRAVITY
+        self._state = state = walker_memory(robot, model, config, dt)
+        self._memory = state.memory
+        self._answer_record, self._gait_record = state.record["answer"], state.record["gait"]
+        self._joint_record = state.record["joint"]
+        self._velocity, self._parameters = state.cut("orders", "velocity"), state.cut("orders", "parameters")
+        self._readings = {
+            name: state.cut("readings", name) for name in ("joint_position", "joint_torque", "contact", "gravity")
+        }
+        self._measured_feet = state.cut("senses", "origins")[:, -1]  # m in body
+        self._force = state.cut("senses", "force")
+        self._mode = state.cut("feet", "mode")
+        self._phase = state.cut("gait", "leg_phase")
+        self._walked = state.cut("gait", "velocity")
+        self._plane = state.cut("body", "plane")
+        self._feet = state.cut("joint", "foot")
+        self._angles = state.cut("joint", "wanted")
+        self._target = state.cut("joint", "target")
+        self._load = state.cut("load", "load")
         self._sitting_height = float(robot.sitting_in_body[0, 2]) + config.sitting_lift
-        self._lag = model.servo_lag + dt  # the bus brings a target one tick later
-        self._angles = np.zeros((legs, joints))  # wanted, without the servos' lead
-        self._previous = np.zeros((legs, joints))
-        self._target = np.zeros((legs, joints))
-        self._distance_left = np.zeros(legs)
-        self._feet = np.zeros((legs, 3))
-        self._load = np.zeros(legs)
+        self._gait: Gait | None = None
+        self._poser = Poser(config, model, robot.stance_in_body, np.array(robot.body.centre_of_mass_in_body), dt)
+        self._up = state.cut("senses", "up")
         self._stability = StabilityWatch(config.stability, dt)
-        self._margins = (0.0, 0.0)  # m, static and energy
         self._posture = "sitting"
         self._joint_glide: Glide | None = None
         self._foot_glide: Glide | None = None
-        self.reset(np.zeros(legs * joints))
+        self._choose_gait(robot.gaits[0])
+        self._phase[:] = state.cut("orders", "offset")
+        self.reset(np.zeros(self._angles.size))
 
     def reset(self, joint_position: Array) -> None:
         """Begin from where the joints are: hold them, sitting, until told to stand."""
         angles = np.asarray(joint_position, dtype=np.float64).reshape(self._angles.shape)
         angles = np.where(np.isfinite(angles), angles, self._angles)
         np.clip(angles, self._model.limits[:, 0], self._model.limits[:, 1], out=self._angles)
-        self._previous[:] = self._angles
         self._posture = "sitting"
         self._joint_glide = self._foot_glide = None
         self._poser.clear()
+        self._state.record["orders"]["posing_rotation"] = np.eye(3)
+        self._state.record["orders"]["posing_position"] = 0.0
 
     def begin_standing(self) -> Array:
         """Be standing at once, feet on their stance; returns the joint angles (joints,) that this means."""
         stance = self._robot.stance_in_body
-        self._feet[:] = stance
-        self._solve(stance, np.array([0.0, 0.0, -1.0]))
-        self._previous[:] = self._angles
-        self._senses.stand(self._angles)
-        self._stepper.begin(stance, np.ones(self._load.size), self._senses.up)
+        solve_feet(self._memory, stance)
+        believe(self._memory)
+        stand(self._memory, stance, 1.0)
         self._posture = "standing"
-        return self._angles.ravel().copy()
+        return self._angles.ravel()
 
     def step(self, sensed: WalkInput) -> WalkOutput:
         """One control tick. Readings and orders that are not finite are replaced and named in `reasons`."""
-        senses, dt = self._senses, self._dt
-        senses.update(sensed)
-        reasons = senses.complaints
-        velocity, usable = clean_velocity(sensed.velocity)
-        if not usable:
-            reasons += ("the velocity order is not a number",)
-        if not self._parameters.follow(sensed.parameters):
-            reasons += ("a gait parameter is not a number",)
-        reasons += self._judge_stability(sensed.gait)
-        self._previous[:] = self._angles
-        self._act(sensed, velocity * self._stability.factor)
-        together = self._stepper.feet.mode == STAND
-        factor = limit_joint_speed(self._previous, self._angles, self._model.speed_limit, together, dt)
-        if factor < 1.0:
-            self._stepper.slow_down(factor)
-            reasons += ("a servo is at its largest speed",)
-        self._lead()
-        return self._answer(reasons + self._stepper.reasons + self._poser.reasons)
+        reasons = self._take(sensed)
+        upright = self._posture in ("standing", "walking")
+        sense_tick(self._memory, upright)
+        reasons += self._judge_stability(upright)
+        if not sensed.stand:
+            self._velocity[:] = 0.0
+        self._act(sensed.stand, sensed.posing)
+        return self._answer(reasons + self._poser.reasons)
 
-    def _judge_stability(self, gait: str) -> tuple[str, ...]:
-        """Margins of the feet that carry; what they lead to while the robot is on its legs in a static gait."""
-        senses, mode = self._senses, self._stepper.feet.mode
-        carrying = (mode == STAND) | (self._posture not in ("standing", "walking"))
-        feet, centre, up = senses.feet, senses.centre_of_mass, senses.up
-        self._margins = (static_margin(feet, carrying, centre, up), energy_margin(feet, carrying, centre, up))
-        if self._posture in ("standing", "walking") and is_static(self._robot.gait(gait)):
-            self._stability.update(*self._margins)
+    def _take(self, sensed: WalkInput) -> tuple[str, ...]:
+        """Write a tick's readings and orders into the memory; what has the wrong size counts as missing."""
+        readings, parameters = self._readings, sensed.parameters
+        _fill(readings["joint_position"], sensed.joint_position)
+        _fill(readings["joint_torque"], sensed.joint_torque)
+        _fill(readings["gravity"], sensed.gravity_in_body)
+        _fill(readings["contact"], sensed.foot_contact)
+        _fill(self._velocity, sensed.velocity)
+        ordered = (parameters.stride_frequency, parameters.stride_height, parameters.virtual_stiffness)
+        self._parameters[0], self._parameters[1], self._parameters[2] = ordered
+        return self._choose_gait(sensed.gait)
+
+    def _choose_gait(self, name: str) -> tuple[str, ...]:
+        """An unknown gait leaves the one in use."""
+        gait = self._robot.gait_table.get(name)
+        if gait is None:
+            return (f"gait {name!r} is unknown",)
+        if gait is not self._gait:
+            orders = self._state.record["orders"]
+            self._gait, orders["duty"] = gait, gait.duty
+            self._state.cut("orders", "offset")[:] = gait.offsets
+        return ()
+
+    def _judge_stability(self, upright: bool) -> tuple[str, ...]:
+        """Slow down, by the margins of the feet that carry, while the robot is on its legs in a static gait."""
+        watch, answer = self._stability, self._answer_record
+        assert self._gait is not None
+        if upright and is_static(self._gait):
+            watch.update(float(answer["static_margin"]), float(answer["energy_margin"]))
         else:
-            self._stability.clear()
-        return self._stability.reasons
+            watch.clear()
+        if watch.factor < 1.0:
+            self._velocity *= watch.factor
+        return watch.reasons
 
-    def _act(self, sensed: WalkInput, velocity: Array) -> None:
-        """Set the wanted joint angles of this tick according to the posture."""
+    def _act(self, wants_to_stand: bool, posing: PosingOrder) -> None:
+        """Set this tick's servo targets according to the posture."""
+        self._joint_record["lead"] = self._posture != "sitting"
         if self._posture == "sitting":
             self._load[:] = 0.0
-            if sensed.stand:
+            joint_tick(self._memory, self._angles.copy())
+            if wants_to_stand:
                 self._begin_rising()
         elif self._posture in ("rising", "lowering"):
-            self._glide(sensed.stand)
+            self._glide(wants_to_stand)
         else:
-            self._walk(sensed, velocity)
+            self._walk(posing if wants_to_stand else NO_POSING)
+            if not wants_to_stand and self._posture == "standing" and self._poser.idle:
+                self._begin_lowering()
 
-    def _walk(self, sensed: WalkInput, velocity: Array) -> None:
-        stepper, poser = self._stepper, self._poser
-        senses: LegSenses | UnposedSenses = self._senses
-        if not poser.idle:
-            self._unposed.update(poser.pose)
-            senses = self._unposed
-        stepper.step(senses, velocity if sensed.stand else np.zeros(3), self._parameters, self._robot.gait(sensed.gait))
-        self._load[:] = stepper.load
-        self._feet[:] = stepper.places(senses.up)
-        self._pose(sensed)
-        self._solve(self._feet, -self._senses.up)
-        self._posture = "walking" if stepper.walking else "standing"
-        if not sensed.stand and not stepper.walking and poser.idle:
-            self._begin_lowering()
+    def _walk(self, posing: PosingOrder) -> None:
+        if self._poser.idle and posing.idle:
+            walk_tick(self._memory)
+        else:
+            step_tick(self._memory)
+            self._pose(posing)
+            place_tick(self._memory)
+        self._posture = "walking" if self._gait_record["walking"] else "standing"
 
-    def _pose(self, sensed: WalkInput) -> None:
-        """Turn the wanted feet from the un-posed body into the body as it is to be posed."""
-        stepper, poser, clock = self._stepper, self._poser, self._stepper.clock
-        pose = poser.step(
-            sensed.posing if sensed.stand else NO_POSING,
-            self._senses.up,
-            walking=stepper.walking,
-            gait=clock.gait,
-            leg_phase=clock.leg_phase,
-            swing=clock.swing,
-            frequency=self._parameters.frequency,
+    def _pose(self, posing: PosingOrder) -> None:
+        """Pose the body against its un-posed place, in which the feet's places are wanted."""
+        gait, orders = self._gait_record, self._state.record["orders"]
+        assert self._gait is not None
+        pose = self._poser.step(
+            posing,
+            self._up,
+            walking=bool(gait["walking"]),
+            gait=self._gait,
+            leg_phase=self._phase,
+            swing=1.0 - float(gait["duty"]),
+            frequency=float(gait["frequency"]),
         )
-        if not poser.idle:
-            self._feet[:] = pose.inverse().transform(self._feet)
+        orders["posing_rotation"], orders["posing_position"] = pose.rotation, pose.position
 
     def _begin_rising(self) -> None:
         """First fold the legs, feet under their stance, then push up."""
         stance = self._robot.stance_in_body
         feet = stance.copy()
-        lowest = self._sitting_height
-        feet[:, 2] = float(np.clip(np.median(self._senses.feet[:, 2]), stance[0, 2], lowest))
+        feet[:, 2] = float(np.clip(np.median(self._measured_feet[:, 2]), stance[0, 2], self._sitting_height))
         start = self._angles.copy()
-        self._solve(feet, -self._senses.up)
+        solve_feet(self._memory, feet)
         self._joint_glide = Glide(start, self._angles, self._config.soft_start_speed)
         self._angles[:] = start
         self._foot_glide = Glide(feet, stance, self._config.rise_speed)
-        self._stepper.feet.stand_at(feet)
+        stand(self._memory, feet, 0.0)
         self._posture = "rising"
 
     def _begin_lowering(self) -> None:
@@ -176,25 +200,25 @@ class Walker:
         self._foot_glide = Glide(self._feet, goal, self._config.rise_speed)
         self._posture = "lowering"
 
-    def _glide(self, stand: bool) -> None:
+    def _glide(self, wants_to_stand: bool) -> None:
         if self._joint_glide is not None and not self._joint_glide.done:
-            self._angles[:] = self._joint_glide.step(self._dt)
             self._load[:] = 0.0
+            joint_tick(self._memory, self._joint_glide.step(self._dt))
             return
-        if stand != (self._posture == "rising"):
-            self._turn_back(stand)
-        assert self._foot_glide is not None
-        self._feet[:] = self._foot_glide.step(self._dt)
-        self._solve(self._feet, -self._senses.up)
-        progress = self._foot_glide.progress
-        carried = min((progress if self._posture == "rising" else 1.0 - progress) / LOADING, 1.0)
-        self._load[:] = carried * self._weight / self._load.size
-        if self._foot_glide.done:
+        if wants_to_stand != (self._posture == "rising"):
+            self._turn_back(wants_to_stand)
+        glide = self._foot_glide
+        assert glide is not None
+        self._feet[:] = glide.step(self._dt)
+        carried = min((glide.progress if self._posture == "rising" else 1.0 - glide.progress) / LOADING, 1.0)
+        self._load[:] = carried * float(self._state.record["model"]["weight"]) / self._load.size
+        foot_tick(self._memory)
+        if glide.done:
             self._arrive()
 
-    def _turn_back(self, stand: bool) -> None:
+    def _turn_back(self, wants_to_stand: bool) -> None:
         """Stand asked while sitting down, or the other way round: go back from here."""
-        if stand:
+        if wants_to_stand:
             self._joint_glide = None
             self._foot_glide = Glide(self._feet, self._robot.stance_in_body, self._config.rise_speed)
             self._posture = "rising"
@@ -203,64 +227,34 @@ class Walker:
 
     def _arrive(self) -> None:
         if self._posture == "rising":
-            self._stepper.begin(self._feet, np.ones(self._load.size), self._senses.up)
+            stand(self._memory, self._feet.copy(), 1.0)
             self._posture = "standing"
         else:
             self._posture = "sitting"
 
-    def _solve(self, feet: Array, direction: Array) -> None:
-        model = self._model
-        solve_legs(
-            model.dh,
-            model.limits,
-            model.yaw_roll_pitch,
-            model.hips,
-            model.hip_axes,
-            feet,
-            direction,
-            self._previous,
-            self._angles,
-            self._distance_left,
-        )
-
-    def _lead(self) -> None:
-        if not self._config.compensate_servos or self._posture == "sitting":
-            self._target[:] = self._angles
-            return
-        model, senses = self._model, self._senses
-        rate = (self._angles - self._previous) / self._dt
-        lead_servos(
-            self._angles,
-            rate,
-            senses.origins,
-            senses.axes,
-            model.link_mass,
-            senses.up,
-            self._load,
-            model.servo_stiffness,
-            self._lag,
-            model.limits,
-            self._target,
-        )
-
     def _answer(self, reasons: tuple[str, ...]) -> WalkOutput:
-        stepper, senses = self._stepper, self._senses
+        answer, mode = self._answer_record, self._mode
         upright = self._posture in ("standing", "walking")
-        mode = stepper.feet.mode
-        swing = ((mode == SWING) | (mode == REACH)) & upright
         return WalkOutput(
-            joint_position=self._target.ravel().copy(),
+            joint_position=self._target.ravel(),
             foot_in_body=self._feet.copy(),
-            foot_force=senses.force.copy(),
-            phase=stepper.clock.leg_phase,
-            swing=swing,
-            velocity=stepper.velocity.copy() if self._posture == "walking" else np.zeros(3),
-            stability_margin=float(self._margins[0]),
-            energy_margin=float(self._margins[1]),
+            foot_force=self._force.copy(),
+            phase=self._phase.copy(),
+            swing=((mode == SWING) | (mode == REACH)) & upright,
+            velocity=self._walked.copy() if self._posture == "walking" else np.zeros(3),
+            stability_margin=float(answer["static_margin"]),
+            energy_margin=float(answer["energy_margin"]),
             stability=self._stability.level,
-            ground_plane=stepper.body.plane.copy(),
-            ground_residual=float(stepper.body.residual),
+            ground_plane=self._plane.copy(),
+            ground_residual=float(self._state.record["body"]["residual"]),
             unposed_from_body=self._poser.pose,
             posture=self._posture,
-            reasons=reasons,
+            reasons=sentences(int(answer["reasons"])) + reasons,
         )
+
+
+def _fill(field: Array, values: NDArray[Any]) -> None:
+    try:
+        field[...] = np.reshape(values, field.shape)
+    except (ValueError, TypeError):
+        field[...] = 0 if field.dtype.kind == "i" else np.nan

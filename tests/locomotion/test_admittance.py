@@ -6,9 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from robot_agent.locomotion.admittance import damping_of, step_admittance, transition
-from robot_agent.locomotion.impedance import LegImpedance
-from weaver_shared.config.locomotion import AdmittanceConfig
+from robot_agent.kinematics.compiled import kernel
+from robot_agent.locomotion.admittance import step_admittance, transition
+from robot_agent.locomotion.impedance import damping_of, give_way
+from robot_agent.locomotion.walk_state import WalkState, write
+from weaver_shared.config.locomotion import AdmittanceConfig, LocomotionConfig
 
 
 def respond(mass, damping, stiffness, force, *, rate, seconds):
@@ -45,8 +47,28 @@ def test_the_response_is_the_same_at_50_100_and_200_hz(damping):
     np.testing.assert_allclose(responses[0], responses[2], rtol=1e-9)
 
 
+@kernel
+def give_way_once(memory):
+    give_way(memory[0])
+
+
+class Impedance:
+    """The legs' impedance alone, every foot standing, in a walker's memory."""
+
+    def __init__(self, legs, dt=0.01):
+        self.state = WalkState(legs, 5)
+        write(self.state.record["settings"], LocomotionConfig())
+        self.state.record["model"]["legs"], self.state.record["model"]["dt"] = legs, dt
+        self.offset = self.state.cut("load", "offset")
+
+    def step(self, surplus, stiffness):
+        self.state.record["gait"]["stiffness"] = stiffness
+        self.state.cut("senses", "force")[:] = surplus
+        give_way_once(self.state.memory)
+
+
 def test_a_leg_does_not_feel_its_neighbours_force():
-    impedance = LegImpedance(6, AdmittanceConfig(), 0.01)
+    impedance = Impedance(6)
     for _ in range(100):
         impedance.step(np.array([30.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 1000.0)
     assert impedance.offset[0, 0] > 0.01
@@ -54,10 +76,9 @@ def test_a_leg_does_not_feel_its_neighbours_force():
 
 
 def test_an_offset_at_its_bound_leaves_it_as_soon_as_the_force_turns():
-    config = AdmittanceConfig()
-    impedance = LegImpedance(1, config, 0.01)
+    largest, impedance = AdmittanceConfig().largest_offset, Impedance(1)
     for _ in range(500):
         impedance.step(np.array([1e6]), 400.0)
-    assert impedance.offset[0, 0] == config.largest_offset
+    assert impedance.offset[0, 0] == largest
     impedance.step(np.array([-20.0]), 400.0)
-    assert impedance.offset[0, 0] < config.largest_offset
+    assert impedance.offset[0, 0] < largest

@@ -1,0 +1,160 @@
+"""What a tick of the walker is made of, each a kernel over its whole memory: sense, walk, follow the feet, hold."""
+
+import numpy as np
+
+from robot_agent.kinematics import limit_joint_speed, solve_leg
+from robot_agent.kinematics.compiled import kernel
+from robot_agent.locomotion.body_velocity import clean_velocity
+from robot_agent.locomotion.energy_margin import energy_margin
+from robot_agent.locomotion.feet import STAND
+from robot_agent.locomotion.gait_parameters import follow_parameters
+from robot_agent.locomotion.reasons import SERVO_SPEED
+from robot_agent.locomotion.senses import measure, sense
+from robot_agent.locomotion.servo_lead import lead_servos
+from robot_agent.locomotion.stability import static_margin
+from robot_agent.locomotion.stepper import step
+from robot_agent.locomotion.walk_state import Array, Record
+
+SLOWEST_PACE = 0.1
+
+
+@kernel
+def sense_tick(memory: Array, upright: bool) -> None:
+    """Take readings and orders, and judge how firmly the robot stands: on all its feet unless it is `upright`."""
+    walk = memory[0]
+    walk.answer.reasons = 0
+    sense(walk)
+    clean_velocity(walk)
+    follow_parameters(walk)
+    legs, n, senses = walk.model.legs, walk.model.joints, walk.senses
+    carrying, feet = np.empty(legs, dtype=np.bool_), np.empty((legs, 3))
+    for leg in range(legs):
+        carrying[leg] = walk.feet.mode[leg] == STAND or not upright
+        feet[leg] = senses.origins[leg, n]
+    walk.answer.static_margin = static_margin(feet, carrying, senses.centre_of_mass, senses.up)
+    walk.answer.energy_margin = energy_margin(feet, carrying, senses.centre_of_mass, senses.up)
+
+
+@kernel
+def believe(memory: Array) -> None:
+    """Take the joints to be where they are wanted, and every foot to touch the ground."""
+    walk = memory[0]
+    for leg in range(walk.model.legs):
+        for i in range(walk.model.joints):
+            walk.joint.previous[leg, i] = walk.senses.joint_position[leg, i] = walk.joint.wanted[leg, i]
+        walk.senses.contact_left[leg] = walk.settings.foothold.contact_hold
+        walk.senses.contact[leg] = True
+    measure(walk)
+
+
+@kernel
+def walk_tick(memory: Array) -> None:
+    """Stand or walk: from the ordered velocity to the servos' targets."""
+    step_tick(memory)
+    place_tick(memory)
+
+
+@kernel
+def step_tick(memory: Array) -> None:
+    """The first part of `walk_tick`: where the feet belong in the body as it would be without posing."""
+    walk = memory[0]
+    hold_angles(walk)
+    step(walk)
+
+
+@kernel
+def place_tick(memory: Array) -> None:
+    """The second part of `walk_tick`: from there to the servos' targets of the posed body."""
+    walk = memory[0]
+    place_feet(walk)
+    reach_feet(walk)
+    target_servos(walk)
+
+
+@kernel
+def foot_tick(memory: Array) -> None:
+    """Follow feet that something else than walking has placed."""
+    walk = memory[0]
+    hold_angles(walk)
+    reach_feet(walk)
+    target_servos(walk)
+
+
+@kernel
+def joint_tick(memory: Array, angles: Array) -> None:
+    """Follow joint `angles` (legs, n)."""
+    walk = memory[0]
+    hold_angles(walk)
+    for leg in range(angles.shape[0]):
+        for i in range(angles.shape[1]):
+            walk.joint.wanted[leg, i] = angles[leg, i]
+    target_servos(walk)
+
+
+@kernel
+def solve_feet(memory: Array, feet: Array) -> None:
+    """Set the wanted angles for `feet` (legs, 3) in body at once, whatever the speed that needs."""
+    walk = memory[0]
+    for leg in range(walk.model.legs):
+        walk.joint.foot[leg, :] = feet[leg]
+    reach_feet(walk)
+
+
+@kernel
+def hold_angles(walk: Record) -> None:
+    """What was wanted becomes what the joints come from."""
+    for leg in range(walk.model.legs):
+        for i in range(walk.model.joints):
+            walk.joint.previous[leg, i] = walk.joint.wanted[leg, i]
+
+
+@kernel
+def place_feet(walk: Record) -> None:
+    """Feet in body: where they belong, with the impedance's offset, seen from the posed body."""
+    feet, offset, up = walk.feet, walk.load.offset, walk.senses.unposed_up
+    turn, shift = walk.orders.posing_rotation, walk.orders.posing_position
+    for leg in range(walk.model.legs):
+        x = feet.place[leg, 0] + offset[leg, 0] * up[0] - shift[0]
+        y = feet.place[leg, 1] + offset[leg, 0] * up[1] - shift[1]
+        z = feet.place[leg, 2] + offset[leg, 0] * up[2] - shift[2]
+        for k in range(3):
+            walk.joint.foot[leg, k] = turn[0, k] * x + turn[1, k] * y + turn[2, k] * z
+
+
+@kernel
+def reach_feet(walk: Record) -> None:
+    """Joint angles for the wanted feet, last links along gravity as far as the legs can."""
+    model, joint = walk.model, walk.joint
+    n, direction = model.joints, np.empty(3)
+    for k in range(3):
+        direction[k] = -walk.senses.up[k]
+    for leg in range(model.legs):
+        joint.distance_left[leg] = solve_leg(
+            model.dh[:n],
+            model.limits[:n],
+            model.closed_form,
+            model.hips[leg],
+            model.hip_axes[leg],
+            joint.foot[leg],
+            direction,
+            joint.previous[leg, :n],
+            joint.wanted[leg, :n],
+        )
+
+
+@kernel
+def target_servos(walk: Record) -> None:
+    """Keep the speed limits, legs on the ground together, and lead the servos by what they lack."""
+    model, joint, legs = walk.model, walk.joint, walk.model.legs
+    together = np.empty(legs, dtype=np.bool_)
+    for leg in range(legs):
+        together[leg] = walk.feet.mode[leg] == STAND
+    speed = model.speed_limit[: model.joints]
+    factor = limit_joint_speed(joint.previous, joint.wanted, speed, together, model.dt)
+    if factor < 1.0:
+        walk.gait.pace = min(walk.gait.pace, max(factor, SLOWEST_PACE))  # the gait takes its time
+        walk.answer.reasons |= SERVO_SPEED
+    if walk.settings.compensate_servos and joint.lead:
+        lead_servos(walk)
+    else:
+        joint.target[:] = joint.wanted

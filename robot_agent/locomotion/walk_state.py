@@ -1,0 +1,218 @@
+"""All that the walker knows, as one record of fixed layout.
+
+Kernels take the whole record as a single argument (every further array costs a call a third of a microsecond) and
+reach its parts by name, `walk.feet.place[leg]`. Room is for eight legs of six joints; `cut` gives Python the used
+part of a field as an array that shares its memory.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel
+
+from weaver_shared.config.locomotion import LocomotionConfig
+
+Array = NDArray[Any]
+Record = Any
+"""A part of the walker's memory inside a kernel: its fields are attributes."""
+
+LEGS, JOINTS, BEARINGS = 8, 6, 36
+F, N = np.float64, np.int64
+
+MODEL = np.dtype(
+    [
+        ("legs", N),
+        ("joints", N),  # of a leg
+        ("closed_form", N),  # see `kinematics.inverse`
+        ("dh", F, (JOINTS, 4)),  # theta, d, r, alpha
+        ("limits", F, (JOINTS, 2)),  # rad
+        ("hips", F, (LEGS, 3)),  # m in body
+        ("hip_axes", F, (LEGS, 3, 3)),
+        ("link_mass", F, (JOINTS,)),  # kg
+        ("speed_limit", F, (JOINTS,)),  # rad/s
+        ("servo_stiffness", F, (JOINTS,)),  # N m/rad
+        ("servo_lag", F, (JOINTS,)),  # s, with the tick that the bus takes
+        ("trunk_mass", F),  # kg
+        ("trunk_centre", F, (3,)),  # m in body
+        ("weight", F),  # N of the whole robot
+        ("stance", F, (LEGS, 3)),  # m in body, middle of every foot's stance
+        ("foot_depth", F),  # m of the stance under the body's origin
+        ("radius", F, (LEGS, BEARINGS)),  # m reachable about the stance
+        ("down_limit", F),  # m, z in body between which footholds stay
+        ("up_limit", F),
+        ("dt", F),  # s, a tick
+        ("force_blend", F),  # of the low-pass on the foot forces, a tick
+        ("plane_blend", F),  # of that on the ground plane
+    ]
+)
+
+ORDERS = np.dtype(
+    [
+        ("velocity", F, (3,)),  # vx, vy m/s, turn rad/s
+        ("parameters", F, (3,)),  # frequency Hz, swing height m, stiffness N/m
+        ("duty", F),
+        ("offset", F, (LEGS,)),  # of the gait
+        ("posing_rotation", F, (3, 3)),  # unposed_from_body
+        ("posing_position", F, (3,)),
+    ]
+)
+
+READINGS = np.dtype(
+    [
+        ("joint_position", F, (LEGS, JOINTS)),
+        ("joint_torque", F, (LEGS, JOINTS)),
+        ("contact", N, (LEGS,)),
+        ("gravity", F, (3,)),
+    ]
+)
+
+SENSES = np.dtype(
+    [
+        ("joint_position", F, (LEGS, JOINTS)),  # last good readings
+        ("joint_torque", F, (LEGS, JOINTS)),
+        ("origins", F, (LEGS, JOINTS + 1, 3)),  # joints and foot, m in body
+        ("axes", F, (LEGS, JOINTS, 3)),
+        ("jacobian", F, (LEGS, 3, JOINTS)),
+        ("own_torque", F, (LEGS, JOINTS)),  # N m that hold the links' own weight
+        ("up", F, (3,)),  # in body, against gravity
+        ("force", F, (LEGS,)),  # N along up, low-passed
+        ("contact", N, (LEGS,)),
+        ("contact_left", F, (LEGS,)),  # s that a contact still counts
+        ("centre_of_mass", F, (3,)),  # m in body
+        ("unposed_up", F, (3,)),  # the same in the body as it would be without posing
+        ("unposed_centre", F, (3,)),
+        ("unposed_feet", F, (LEGS, 3)),
+    ]
+)
+
+FEET = np.dtype(
+    [
+        ("mode", N, (LEGS,)),  # STAND, SWING, REACH, HANG of `feet`
+        ("place", F, (LEGS, 3)),  # wanted foot centre, before the impedance
+        ("lift_off", F, (LEGS, 3)),
+        ("anchor", F, (LEGS, 3)),  # where each foot last stood, measured, carried along by the body's motion
+        ("lifted", N, (LEGS,)),  # has already swung in this stride
+        ("swing_height", F, (LEGS,)),
+        ("reached", F, (LEGS,)),  # m below the expected ground
+        ("stance", F, (LEGS, 3)),  # middle of every stance, shifted for the inclination
+    ]
+)
+
+GAIT = np.dtype(
+    [
+        ("frequency", F),  # in use, after limits and rates
+        ("height", F),
+        ("stiffness", F),
+        ("started", N),  # the parameters follow at a bounded rate from the first order on
+        ("phase", F),
+        ("duty", F),
+        ("offset", F, (LEGS,)),
+        ("leg_phase", F, (LEGS,)),  # 0 at lift-off
+        ("walking", N),
+        ("halted", N),  # no foot lifts any more
+        ("skipped", N),  # a foot has missed its lift-off, so the walk has to end before it goes on
+        ("waited", F),  # s for a foot without ground
+        ("pace", F),  # 1, less where the gait has to wait
+        ("limited", F, (3,)),  # the ordered velocity within the limits
+        ("commanded", F, (3,)),  # after slewing
+        ("velocity", F, (3,)),  # the same at the gait's present pace
+    ]
+)
+
+BODY = np.dtype(
+    [
+        ("plane", F, (3,)),  # z = a x + b y + c through the feet, low-passed
+        ("residual", F),  # m rms of the feet about it
+        ("shift", F, (2,)),  # m of the stance against gravity's inclination
+        ("linear", F, (3,)),  # m/s of posture alone
+        ("angular", F, (3,)),  # rad/s
+        ("whole_linear", F, (3,)),  # with the walking, parallel to the ground
+        ("whole_angular", F, (3,)),
+    ]
+)
+
+LOAD = np.dtype(
+    [
+        ("share", F, (LEGS,)),  # 0..1 that a foot takes part
+        ("load", F, (LEGS,)),  # N expected along up
+        ("surplus", F, (LEGS,)),  # N felt beyond it
+        ("offset", F, (LEGS, 2)),  # of the impedance: m along up and m/s
+        ("step", F, (2, 3)),  # its discrete form for `stiffness`
+        ("stiffness", F),
+    ]
+)
+
+JOINT = np.dtype(
+    [
+        ("foot", F, (LEGS, 3)),  # m in body, wanted
+        ("previous", F, (LEGS, JOINTS)),
+        ("wanted", F, (LEGS, JOINTS)),  # without the servos' lead
+        ("target", F, (LEGS, JOINTS)),  # with it
+        ("distance_left", F, (LEGS,)),  # m
+        ("lead", N),  # whether targets lead the wanted angles
+    ]
+)
+
+ANSWER = np.dtype([("reasons", N), ("static_margin", F), ("energy_margin", F)])
+
+
+SECTIONS = ("admittance", "posture", "foothold")
+"""Of the configuration, what kernels read besides its plain numbers."""
+
+
+def layout_of(settings: BaseModel) -> np.dtype[Any]:
+    """The layout of a configuration: its numbers, switches and pairs of numbers, and its `SECTIONS`."""
+    fields: list[Any] = []
+    for name, value in settings:
+        if isinstance(value, BaseModel):
+            if name in SECTIONS:
+                fields.append((name, layout_of(value)))
+        elif isinstance(value, tuple):
+            fields.append((name, F, (len(value),)))
+        else:
+            fields.append((name, N if isinstance(value, bool) else F))
+    return np.dtype(fields)
+
+
+def write(record: Record, settings: BaseModel) -> None:
+    """Copy a configuration into its record."""
+    for name, value in settings:
+        if isinstance(value, BaseModel):
+            if name in SECTIONS:
+                write(record[name], value)
+        else:
+            record[name] = value
+
+
+WALK = np.dtype(
+    [
+        ("model", MODEL),
+        ("settings", layout_of(LocomotionConfig())),
+        ("orders", ORDERS),
+        ("readings", READINGS),
+        ("senses", SENSES),
+        ("feet", FEET),
+        ("gait", GAIT),
+        ("body", BODY),
+        ("load", LOAD),
+        ("joint", JOINT),
+        ("answer", ANSWER),
+    ]
+)
+
+
+class WalkState:
+    """The memory of one walker; `memory` (1,) is what kernels take."""
+
+    def __init__(self, legs: int, joints: int) -> None:
+        self.memory = np.zeros(1, WALK)
+        self.record = self.memory[0]
+        self._size = {LEGS: legs, JOINTS: joints, JOINTS + 1: joints + 1}
+
+    def cut(self, part: str, field: str) -> Array:
+        """The used part of a field, sharing memory: (legs, ...), (legs, joints, ...) or as it is."""
+        whole: Array = self.record[part][field]
+        return whole[tuple(slice(self._size.get(n, n)) for n in whole.shape)]

@@ -1,0 +1,63 @@
+"""A walker's memory, written from the robot's description and settings."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robot_agent.kinematics import LegModel
+from robot_agent.locomotion.walk_state import WalkState, write
+from robot_agent.locomotion.workspace import reachable_radius
+from weaver_shared.config.locomotion import LocomotionConfig
+from weaver_shared.frames import GRAVITY
+from weaver_shared.robots import RobotDescription
+
+GROUND_HEIGHTS = (-0.04, 0.0, 0.04)
+"""m above the stance at which a stride has to be within reach."""
+LOWEST_FOOTHOLD, HIGHEST_FOOTHOLD = 0.09, 0.16
+"""m below and above the stance."""
+
+
+def walker_memory(robot: RobotDescription, model: LegModel, config: LocomotionConfig, dt: float) -> WalkState:
+    """Memory of a walker that ticks every `dt` s; sitting, joints at zero, level, without orders."""
+    state = WalkState(model.leg_count, model.joints_per_leg)
+    write(state.record["settings"], config)
+    _write_model(state, robot, model)
+    record, stance = state.record["model"], robot.stance_in_body
+    record["dt"] = dt
+    record["force_blend"] = 1.0 - np.exp(-dt / config.admittance.force_time)
+    record["plane_blend"] = 1.0 - np.exp(-dt / config.posture.plane_time)
+    state.cut("model", "radius")[:] = reachable_radius(
+        model, stance, np.array(GROUND_HEIGHTS), 0.5 * config.largest_stride + 0.02
+    )
+    record["servo_lag"][: model.joints_per_leg] += dt  # the bus brings a target one tick later
+    record["foot_depth"] = -stance[:, 2].mean()
+    record["down_limit"] = stance[:, 2].min() - LOWEST_FOOTHOLD
+    record["up_limit"] = stance[:, 2].max() + HIGHEST_FOOTHOLD
+    state.record["orders"]["posing_rotation"] = np.eye(3)
+    state.record["senses"]["up"] = state.record["senses"]["unposed_up"] = (0.0, 0.0, 1.0)
+    gait = state.record["gait"]
+    gait["frequency"] = config.frequency_bounds[1]
+    gait["height"] = config.height_bounds[0]
+    gait["stiffness"] = config.admittance.stiffness_bounds[1]
+    return state
+
+
+def _write_model(state: WalkState, robot: RobotDescription, model: LegModel) -> None:
+    record = state.record["model"]
+    record["legs"], record["joints"] = model.leg_count, model.joints_per_leg
+    record["closed_form"] = model.yaw_roll_pitch
+    record["trunk_mass"], record["trunk_centre"] = robot.body.mass, robot.body.centre_of_mass_in_body
+    record["weight"] = robot.mass * GRAVITY
+    arrays = {
+        "dh": model.dh,
+        "limits": model.limits,
+        "hips": model.hips,
+        "hip_axes": model.hip_axes,
+        "link_mass": model.link_mass,
+        "speed_limit": model.speed_limit,
+        "servo_stiffness": model.servo_stiffness,
+        "servo_lag": model.servo_lag,
+        "stance": robot.stance_in_body,
+    }
+    for name, values in arrays.items():
+        record[name][: len(values)] = values
