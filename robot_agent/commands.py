@@ -143,6 +143,7 @@ class CommandDesk:
                 mission_serial=self._mission.serial,
                 teleop_velocity=self._teleop_velocity(now),
                 posing=self._motion.posing,
+                find_way=self._mission.find_way,
             )
 
     def mission_progress(
@@ -157,6 +158,13 @@ class CommandDesk:
             if done:
                 self._mission.finish()
                 self.note(Severity.INFO, "the mission is done")
+
+    def give_up_mission(self, reason: str) -> None:
+        """Pause a mission that can not go on, and say why."""
+        with self._lock:
+            if self._mission.phase == "active":
+                self._mission.pause()
+                self.note(Severity.ERROR, f"the mission is paused: {reason}")
 
     def note(self, severity: Severity, text: str, source: str = "robot") -> None:
         with self._lock:
@@ -246,7 +254,7 @@ class CommandDesk:
         return self._accept()
 
     def _set_mission(self, command: Command) -> Answer:
-        refusal = self._mission.replace(command.waypoints, self._situation.robot_xy)
+        refusal = self._mission.replace(command.waypoints, self._situation.robot_xy, command.name)
         return self._refuse(refusal) if refusal else self._accept(float(len(command.waypoints)))
 
     def _start_mission(self, _: Command) -> Answer:

@@ -22,9 +22,11 @@ from weaver_shared.messages import (
     AdaptationReport,
     Health,
     ImuBatch,
+    NavigationGoal,
     OdometryEstimate,
     Presence,
     Proprioception,
+    RoutePlan,
     SafetyAction,
     StereoFrame,
     TeleopFrame,
@@ -57,6 +59,7 @@ class WalkLoop:
         self._pipeline = WalkPipeline(robot, overrides, dt=1.0 / CONTROL_RATE)
         self._odometry: LatestSlot[OdometryEstimate] = LatestSlot()
         self._report: LatestSlot[AdaptationReport] = LatestSlot()
+        self._route: LatestSlot[RoutePlan] = LatestSlot()
         presence = Presence(
             robot_id=robot_id,
             session=secrets.token_hex(4),
@@ -71,6 +74,7 @@ class WalkLoop:
         self._ticks = 0
         bus.subscribe(robot_id, topics.ODOMETRY, lambda _id, _key, message: self._odometry.put(message))
         bus.subscribe(robot_id, topics.DESIRED_GAIT, lambda _id, _key, message: self._report.put(message))
+        bus.subscribe(robot_id, topics.ROUTE, lambda _id, _key, message: self._route.put(message))
         bus.subscribe(robot_id, topics.TELEOP, self._teleoperate)
         bus.serve(robot_id, self.desk.answer)
         bus.announce(robot_id, "walk")
@@ -94,6 +98,8 @@ class WalkLoop:
             self._pipeline.correct(estimate)
         if (report := self._report.take()) is not None:
             self._pipeline.adapt(report)
+        if (route := self._route.take()) is not None:
+            self._pipeline.take_route(route)
         return self._pipeline.step(sensed, self.desk.orders())
 
     def _after(self, tick: WalkTick, sensed: Proprioception) -> None:
@@ -105,6 +111,8 @@ class WalkLoop:
                 lookahead=tick.follower.lookahead_in_world,
                 done=tick.follower.done,
             )
+        if tick.route is not None and tick.route.hopeless:
+            self.desk.give_up_mission(tick.route.waiting)
         if tick.verdict.action in (SafetyAction.SIT, SafetyAction.CUT):
             self.desk.withdraw_stand()
         x, y, _ = tick.state.world_from_body.position
@@ -183,6 +191,8 @@ class VisionLoop:
         self._pipeline: VisionPipeline | None = None
         self._imu = ImuQueue()
         self._meter = LoopMeter("vision", robot.camera.rate)
+        self._goal: LatestSlot[NavigationGoal] = LatestSlot()
+        bus.subscribe(robot_id, topics.GOAL, lambda _id, _key, message: self._goal.put(message))
         self._frames = 0
 
     def feel(self, sensed: Proprioception) -> None:
@@ -225,6 +235,11 @@ class VisionLoop:
             publish(self._robot_id, topics.DESIRED_GAIT, tick.report)
         for tile in tick.tiles:
             publish(self._robot_id, topics.MAP_TILE, tile, i=tile.i, j=tile.j)
+        if tick.route is not None:
+            publish(self._robot_id, topics.ROUTE, tick.route)
+        # Between pictures, so that a search on another thread sees one goal from beginning to end.
+        if self._pipeline is not None and (goal := self._goal.take()) is not None:
+            self._pipeline.seek(goal)
         self._frames += 1
         if self._frames % 10 == 0:
             self._publish_health(tick.odometry)

@@ -10,6 +10,8 @@ import numpy as np
 from weaver_shared.config.command import CommandLimits
 from weaver_shared.messages import MissionState, Waypoint
 
+WAYS = ("", "auto")
+
 
 class Mission:
     """Phases: empty -> ready -> active <-> paused -> done. Changing the waypoints leaves an active mission paused."""
@@ -19,13 +21,19 @@ class Mission:
         self.waypoints: tuple[Waypoint, ...] = ()
         self.phase = "empty"
         self.serial = 0
+        self.find_way = False  # waypoints are goals, ways between them are found over the map
         self._next = 0
         self._cross_track_error = 0.0
         self._distance_left = 0.0
         self._lookahead = np.full(2, nan)
 
-    def replace(self, waypoints: Sequence[Waypoint], robot_xy: tuple[float, float]) -> str:
-        """Take new waypoints; returns why they are refused, or an empty string."""
+    def replace(self, waypoints: Sequence[Waypoint], robot_xy: tuple[float, float], how: str = "") -> str:
+        """Take new waypoints; returns why they are refused, or an empty string.
+
+        `how` is "auto" for goals to which the robot finds its way around obstacles, or empty for straight lines.
+        """
+        if how not in WAYS:
+            return f"a mission is walked auto or, with no name, straight; {how!r:.40} is neither"
         if len(waypoints) > self._limits.waypoint_count:
             return f"{len(waypoints)} waypoints; at most {self._limits.waypoint_count} are possible"
         for number, waypoint in enumerate(waypoints, start=1):
@@ -37,7 +45,14 @@ class Mission:
                     f"waypoint {number} is {distance:.0f} m from the robot; the farthest allowed is "
                     f"{self._limits.waypoint_reach:.0f} m"
                 )
-        if waypoints and self.phase == "active" and tuple(waypoints[: self._next]) == self.waypoints[: self._next]:
+        same_way = self.find_way == bool(how)
+        self.find_way = bool(how)
+        if (
+            same_way
+            and waypoints
+            and self.phase == "active"
+            and tuple(waypoints[: self._next]) == self.waypoints[: self._next]
+        ):
             self.waypoints = tuple(waypoints)
             if self._next >= len(self.waypoints):
                 self.finish()

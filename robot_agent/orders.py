@@ -23,6 +23,7 @@ class Orders:
     mission_serial: int  # rises when the follower must begin anew
     teleop_velocity: NDArray[np.float64] | None  # (3,) fractions -1..1 of the limits; None: nobody steers
     posing: PosingOrder = NO_POSING
+    find_way: bool = False  # the waypoints are goals to which the robot finds its own way
 
 
 def idle_orders(gait: str = "tripod") -> Orders:

@@ -17,19 +17,22 @@ from robot_agent.limits import JointGate
 from robot_agent.locomotion import Walker, WalkInput, WalkOutput
 from robot_agent.mapping import TerrainMap
 from robot_agent.modes import ModeMachine, Permission
-from robot_agent.navigation import FollowerOutput, PathFollower
+from robot_agent.navigation import FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
 from robot_agent.odometry import NavigationState, StatePropagator, StereoInertialOdometry
 from robot_agent.orders import Orders
 from robot_agent.perception import TerrainPerception
 from robot_agent.safety import SafetySupervisor, Verdict
 from robot_agent.vigilance import Vigilance
 from robot_agent.vision.camera import StereoCalibration
+from weaver_shared.config.navigation import RouteConfig
 from weaver_shared.messages import (
     AdaptationReport,
     ImuBatch,
     MapTile,
+    NavigationGoal,
     OdometryEstimate,
     Proprioception,
+    RoutePlan,
     StereoFrame,
     TerrainEstimate,
     Waypoint,
@@ -41,6 +44,8 @@ from weaver_shared.transforms import Pose
 REPORT_LIFETIME = 1.0
 """Seconds after which an adaptation report no longer describes the ground under the robot."""
 
+PLAN_EVERY = RouteConfig().every
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VisionTick:
@@ -48,6 +53,7 @@ class VisionTick:
     terrain: TerrainEstimate | None  # None in frames that perception leaves out
     report: AdaptationReport | None
     tiles: tuple[MapTile, ...]
+    route: RoutePlan | None = None  # when a way was looked for
 
 
 class VisionPipeline:
@@ -59,9 +65,15 @@ class VisionPipeline:
         self._perception = TerrainPerception(calibration)
         self._map = TerrainMap()
         self._adaptation = AdaptationController(robot.adaptation)
+        self._planner = RoutePlanner(robot)
+        self._goal: NavigationGoal | None = None
         self._perceive_every = perceive_every
         self._frames = 0
         self._adapted_ns: int | None = None
+
+    def seek(self, goal: NavigationGoal | None) -> None:
+        """Look for a way to this place from now on, or for none."""
+        self._goal = goal if goal is not None and goal.active else None
 
     def step(self, frame: StereoFrame, imu: ImuBatch) -> VisionTick:
         """One stereo pair with all IMU samples since the previous one."""
@@ -81,7 +93,17 @@ class VisionPipeline:
             terrain=perceived.estimate,
             report=report,
             tiles=tuple(self._map.changed_tiles(frame.stamp_ns)),
+            route=self._route(odometry),
         )
+
+    def _route(self, odometry: OdometryEstimate) -> RoutePlan | None:
+        """A way to the goal, looked for after every few perceived pictures."""
+        if self._goal is None or self._frames % (self._perceive_every * PLAN_EVERY):
+            return None
+        x, y, _ = odometry.position_in_world
+        if not np.isfinite([x, y]).all():
+            return None
+        return self._planner.step(self._goal, self._map.grid, float(x), float(y), odometry.stamp_ns)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,6 +119,7 @@ class WalkTick:
     walk: WalkOutput
     report: AdaptationReport
     follower: FollowerOutput | None
+    route: RouteTick | None = None  # of a mission that finds its own way
 
 
 class WalkPipeline:
@@ -108,6 +131,8 @@ class WalkPipeline:
         self._overrides = overrides
         self._fallback = AdaptationController(robot.adaptation)
         self._follower = PathFollower()
+        self._route_follower = RouteFollower()
+        self._route: RoutePlan | None = None
         self._walker = Walker(robot, dt=dt)
         self._safety = SafetySupervisor()
         self._vigilance = Vigilance()
@@ -131,6 +156,10 @@ class WalkPipeline:
         """Take the vision loop's newest gait parameters."""
         self._report = report
 
+    def take_route(self, route: RoutePlan) -> None:
+        """Take the vision loop's newest way to the goal."""
+        self._route = route
+
     @property
     def odometry_age(self) -> float:
         """Seconds since the vision loop was last heard."""
@@ -142,7 +171,7 @@ class WalkPipeline:
             self._vigilance.inspect(sensed, state, orders, upright=self._posture != "sitting"), self._dt
         )
         permission = self._modes.step(orders, verdict, self._posture)
-        velocity, follower = self._velocity(state, orders, permission)
+        velocity, follower, route = self._velocity(state, orders, permission)
         report = self._parameters(sensed.stamp_ns)
         if not permission.torque_on:
             self._walker.reset(sensed.joint_position)
@@ -177,6 +206,7 @@ class WalkPipeline:
             walk=walk,
             report=report,
             follower=follower,
+            route=route,
         )
 
     def _navigate(self, sensed: Proprioception) -> NavigationState:
@@ -197,19 +227,24 @@ class WalkPipeline:
 
     def _velocity(
         self, state: NavigationState, orders: Orders, permission: Permission
-    ) -> tuple[NDArray[np.float64], FollowerOutput | None]:
-        """Body velocity (vx, vy, turn) from the mission or the stick, and what the follower said."""
+    ) -> tuple[NDArray[np.float64], FollowerOutput | None, RouteTick | None]:
+        """Body velocity (vx, vy, turn) from the mission or the stick, and what the followers said."""
         if not permission.walk:
-            return np.zeros(3), None
+            return np.zeros(3), None, None
         if orders.teleop_velocity is not None:
-            return orders.teleop_velocity, None
-        if not orders.mission_active:
-            return np.zeros(3), None
+            return orders.teleop_velocity, None, None
+        if not (orders.mission_active and orders.waypoints):
+            return np.zeros(3), None, None
+        if orders.find_way:
+            route = self._route_follower.step(
+                state.world_from_body, orders.waypoints, orders.mission_serial, self._route, state.stamp_ns
+            )
+            return route.follower.velocity, replace(route.follower, index=route.follower.index + 1), route
         if orders.mission_serial != self._path_serial or self._path[1:] != orders.waypoints:
             self._begin_path(state, orders)
         follower = self._follower.step(state.world_from_body, self._path, self._path_index)
         self._path_index = follower.index
-        return follower.velocity, follower
+        return follower.velocity, follower, None
 
     def _begin_path(self, state: NavigationState, orders: Orders) -> None:
         """The path begins where the robot stands; waypoints changed under way keep what is behind it."""

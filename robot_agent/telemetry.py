@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from dataclasses import replace
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from weaver_shared.messages import (
     LocomotionState,
     LoopTiming,
     ModeState,
+    NavigationGoal,
     OdometryEstimate,
     PowerState,
     Presence,
@@ -80,6 +82,7 @@ class Telemetry:
         self._count = 0
         self._ledger = PowerLedger(robot)
         self._mode = ""
+        self._goal: NavigationGoal | None = None
 
     def publish(self, tick: WalkTick, sensed: Proprioception, desk: CommandDesk) -> None:
         """Send what is due in this tick."""
@@ -107,6 +110,7 @@ class Telemetry:
             self._publish(topics.LEASE, desk.lease())
         if self._due(topics.MISSION):
             self._publish(topics.MISSION, desk.mission(tick.stamp_ns))
+        self._publish_goal(tick)
         for event in desk.take_events():
             self._publish(topics.EVENT, event)
         self._count += 1
@@ -124,6 +128,19 @@ class Telemetry:
             max_temperature=float(np.max(sensed.joint_temperature)),
         )
         self._bus.publish(self._robot_id, topics.HEALTH, health, process="walk")
+
+    def _publish_goal(self, tick: WalkTick) -> None:
+        """The goal of a mission that finds its own way, at its rate and when it changes; once more when it ends."""
+        goal = tick.route.goal if tick.route is not None else None
+        if goal is None and self._goal is not None:
+            self._publish(topics.GOAL, replace(self._goal, stamp_ns=tick.stamp_ns, active=False))
+        elif goal is not None and (
+            self._due(topics.GOAL) or self._goal is None or (goal.serial, goal.place) != (
+                self._goal.serial, self._goal.place
+            )
+        ):  # fmt: skip
+            self._publish(topics.GOAL, goal)
+        self._goal = goal
 
     def _note_mode(self, tick: WalkTick, desk: CommandDesk) -> None:
         mode = tick.permission.mode
@@ -195,8 +212,12 @@ def _mode_state(tick: WalkTick, desk: CommandDesk) -> ModeState:
         stamp_ns=tick.stamp_ns,
         mode=tick.permission.mode,
         action=tick.verdict.action,
-        reasons=tick.verdict.reasons + tick.verdict.warnings + tuple(tick.walk.reasons),
+        reasons=tick.verdict.reasons + tick.verdict.warnings + tuple(tick.walk.reasons) + _waiting(tick),
         stopped=bool(orders.stop_level),
         stop_level=orders.stop_level,
         allowed=desk.allowed(),
     )
+
+
+def _waiting(tick: WalkTick) -> tuple[str, ...]:
+    return (tick.route.waiting,) if tick.route is not None and tick.route.waiting else ()

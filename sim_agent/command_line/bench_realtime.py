@@ -43,7 +43,7 @@ CHROMIUM = [
 def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="weaver bench realtime", description=__doc__)
     parser.add_argument("--seconds", type=float, default=60.0, help="s of measurement in each of the two parts")
-    parser.add_argument("--world", default="testbed", help="flat, testbed, outdoor or stairs")
+    parser.add_argument("--world", default="testbed", help="flat, testbed, outdoor, stairs, wall or pen")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     options = parser.parse_args(arguments)
     figures = {

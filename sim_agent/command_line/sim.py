@@ -56,7 +56,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="weaver sim", description=__doc__)
     parser.add_argument("--robot", default="weaver", help="robot description: a shipped name or a TOML file")
     parser.add_argument("--robot-id", default="sim-1", help="name on the bus, unique per robot")
-    parser.add_argument("--world", default="testbed", help="flat, testbed, outdoor or stairs")
+    parser.add_argument("--world", default="testbed", help="flat, testbed, outdoor, stairs, wall or pen")
     parser.add_argument("--seed", type=int, default=1, help="seed of the world and of all sensor noise")
     parser.add_argument("--stand", action="store_true", help="stand up at once, without an operator's command")
     parser.add_argument("--listen", default="tcp/127.0.0.1:0", help="bus endpoint to listen on")

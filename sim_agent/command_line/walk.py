@@ -57,7 +57,8 @@ def _mission(run: LockStep, log: RunLog, goal: Waypoint, options: argparse.Names
     if options.adapt == "off":
         _fix_parameters(run)
     _must(run.operator.send(CommandName.SET_GAIT, name=options.gait))
-    _must(run.operator.send(CommandName.SET_MISSION, waypoints=(goal,)))
+    how = "auto" if options.navigate == "auto" else ""
+    _must(run.operator.send(CommandName.SET_MISSION, name=how, waypoints=(goal,)))
     for _ in range(round(STAND_SECONDS * CONTROL_RATE)):
         if run.step().walk.walk.posture == "standing":
             break
@@ -72,7 +73,7 @@ def _mission(run: LockStep, log: RunLog, goal: Waypoint, options: argparse.Names
             phase = run.walk.desk.mission(moment.walk.stamp_ns).phase
             if phase == "done":
                 return True
-            if moment.walk.permission.mode == "FAULT":
+            if phase == "paused" or moment.walk.permission.mode == "FAULT":
                 return False
     return False
 
@@ -116,8 +117,14 @@ def parser() -> argparse.ArgumentParser:
     result = argparse.ArgumentParser(prog="weaver walk", description=__doc__)
     result.add_argument("--robot", choices=("sim",), default="sim", help="which body walks")
     result.add_argument("--robot-description", default="weaver", help="a shipped robot or a TOML file")
-    result.add_argument("--world", default="testbed", help="flat, testbed, outdoor or stairs")
+    result.add_argument("--world", default="testbed", help="flat, testbed, outdoor, stairs, wall or pen")
     result.add_argument("--goal", default="5,0", help="x,y in m from the start")
+    result.add_argument(
+        "--navigate",
+        choices=("straight", "auto"),
+        default="straight",
+        help="auto: around obstacles, by a way found over the map",
+    )
     result.add_argument("--adapt", choices=("on", "off"), default="on", help="off: constant, for rough ground")
     result.add_argument("--gait", default="tripod", help="gait of the robot description")
     result.add_argument("--seed", type=int, default=1, help="seed of the world and of all sensor noise")

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from sim_agent.worlds.flat import flat
+from sim_agent.worlds.obstacles import pen, wall
 from sim_agent.worlds.outdoor import outdoor
 from sim_agent.worlds.scene import World
 from sim_agent.worlds.stairs import stairs
@@ -14,6 +15,8 @@ _WORLDS: dict[str, Callable[[int], World]] = {
     "testbed": paper_testbed,
     "outdoor": outdoor,
     "stairs": stairs,
+    "wall": wall,
+    "pen": pen,
 }
 
 WORLD_NAMES: tuple[str, ...] = tuple(_WORLDS)

@@ -14,7 +14,7 @@ class CommandName(StrEnum):
     SIT = "sit"
     STOP = "stop"  # emergency stop; needs no lease; latches
     RELEASE_STOP = "release_stop"
-    SET_MISSION = "set_mission"  # replaces the waypoints; does not start
+    SET_MISSION = "set_mission"  # replaces the waypoints; does not start; name "auto": find the way
     START_MISSION = "start_mission"
     PAUSE_MISSION = "pause_mission"
     CLEAR_MISSION = "clear_mission"

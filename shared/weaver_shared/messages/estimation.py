@@ -107,3 +107,27 @@ class Waypoint:
 
     x: float
     y: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NavigationGoal:
+    """Where the robot is to find its own way to; sent by the walk loop while such a mission is active."""
+
+    stamp_ns: int
+    serial: int  # of the mission
+    active: bool
+    place: Waypoint
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoutePlan:
+    """The way to a goal as the map is known now, or why there is none."""
+
+    stamp_ns: int
+    serial: int  # of the mission it was planned for
+    goal: Waypoint
+    revision: int  # rises when the waypoints are others than before
+    found: bool
+    reason: str  # why there is no way; empty when there is one
+    waypoints: tuple[Waypoint, ...]  # still to be passed, the goal last
+    length: float  # m; NaN without a way

@@ -1,0 +1,101 @@
+"""Follows routes that are found anew under way, goal by goal; stands still and says why when there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import hypot
+
+import numpy as np
+
+from robot_agent.navigation.path_follower import FollowerOutput, PathFollower
+from weaver_shared.config.navigation import PathFollowerConfig, RouteConfig
+from weaver_shared.messages import NavigationGoal, RoutePlan, Waypoint
+from weaver_shared.transforms import Pose
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RouteTick:
+    goal: NavigationGoal  # a way to it is asked for
+    follower: FollowerOutput  # its index counts goals, as that of a mission does
+    waiting: str  # why the robot does not walk; empty when it does
+    hopeless: bool  # there has been no way for longer than patience lasts
+
+
+class RouteFollower:
+    """One mission at a time, told from others by its serial number."""
+
+    def __init__(self, config: RouteConfig | None = None) -> None:
+        self._config = config = config or RouteConfig()
+        self._follower = PathFollower(config.follower)
+        self._between = PathFollowerConfig().acceptance_radius  # of goals that are only passed
+        self._serial = -1
+        self._goal = 0
+        self._revision = -1
+        self._path: tuple[Waypoint, ...] = ()
+        self._index = 1
+        self._lost_ns: int | None = None
+
+    def step(
+        self, world_from_body: Pose, goals: Sequence[Waypoint], serial: int, route: RoutePlan | None, stamp_ns: int
+    ) -> RouteTick:
+        """One tick along the newest `route`; `goals` may not be empty."""
+        here = Waypoint(x=float(world_from_body.position[0]), y=float(world_from_body.position[1]))
+        if serial != self._serial:
+            self._serial, self._goal, self._revision, self._path, self._lost_ns = serial, 0, -1, (), None
+        self._goal = min(self._goal, len(goals) - 1)
+        while self._goal < len(goals) - 1 and _distance(here, goals[self._goal]) < self._between:
+            self._goal, self._path = self._goal + 1, ()
+        place = goals[self._goal]
+        asked = NavigationGoal(stamp_ns=stamp_ns, serial=serial, active=True, place=place)
+        waiting = self._take(route, place, here, stamp_ns)
+        if waiting:
+            return self._still(asked, waiting, stamp_ns)
+        self._lost_ns = None
+        follower = self._follower.step(world_from_body, self._path, self._index)
+        self._index = follower.index
+        done = follower.done and self._goal == len(goals) - 1
+        return RouteTick(
+            goal=asked,
+            follower=replace(follower, index=len(goals) if done else self._goal, done=done),
+            waiting="",
+            hopeless=False,
+        )
+
+    def _take(self, route: RoutePlan | None, place: Waypoint, here: Waypoint, stamp_ns: int) -> str:
+        """Take a new route; returns why there is nothing to follow, or an empty string."""
+        if route is None or route.serial != self._serial or route.goal != place:
+            return "looking for a way"
+        if (stamp_ns - route.stamp_ns) * 1e-9 > self._config.lifetime:
+            return "the map is not being looked at: no way is known"
+        if not route.found:
+            return f"no way: {route.reason}"
+        if route.revision != self._revision or not self._path:
+            self._revision = route.revision
+            self._path, self._index = (here, *route.waypoints), 1
+        return ""
+
+    def _still(self, asked: NavigationGoal, waiting: str, stamp_ns: int) -> RouteTick:
+        self._path = ()
+        if not waiting.startswith("no way"):
+            self._lost_ns = None
+        elif self._lost_ns is None:
+            self._lost_ns = stamp_ns
+        lost_for = 0.0 if self._lost_ns is None else (stamp_ns - self._lost_ns) * 1e-9
+        return RouteTick(
+            goal=asked,
+            follower=FollowerOutput(
+                velocity=np.zeros(3),
+                index=self._goal,
+                cross_track_error=0.0,
+                distance_left=float("nan"),
+                done=False,
+                lookahead_in_world=np.full(2, np.nan),
+            ),
+            waiting=waiting,
+            hopeless=lost_for > self._config.patience,
+        )
+
+
+def _distance(one: Waypoint, other: Waypoint) -> float:
+    return hypot(one.x - other.x, one.y - other.y)
