@@ -59,3 +59,9 @@ def test_blocks_are_rougher_and_stepped_over_higher_than_the_flat_start(testbed:
 @pytest.mark.parametrize("name", ["virtual_stiffness", "stride_frequency"])
 def test_blocks_are_walked_softer_and_slower_than_the_flat_start(testbed: dict[str, Any], name: str) -> None:
     assert testbed["segments"]["C"][name] < testbed["segments"]["A"][name]
+
+
+def test_a_goal_behind_a_wall_is_reached_around_it() -> None:
+    around = walk(options("--world", "wall", "--goal", "2.9,0", "--navigate", "auto", "--timeout", "60"))
+    assert around["reached"]
+    assert around["distance"] > 3.6  # the straight line ends at the wall, 2.9 m would pass through it
