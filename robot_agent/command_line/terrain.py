@@ -1,4 +1,4 @@
-"""`weaver terrain FILE`: plane, features, roughness and step height of a finished cloud or elevation grid."""
+"""`weaver terrain FILE`: plane, features, roughness and step height of a cloud, a grid or a stereo pair."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ import json
 import math
 from pathlib import Path
 
+from robot_agent.perception.stereo_cloud import read_pair, stereo_cloud
 from robot_agent.perception.terrain_files import Cloud, load_terrain
 from robot_agent.perception.terrain_report import TerrainReport, report_on_cloud, report_on_grid
+from robot_agent.vision.camchain import read_camchain
 from weaver_shared.config.perception import PerceptionConfig
 from weaver_shared.errors import InputError
 
@@ -17,14 +19,27 @@ def main(arguments: list[str]) -> int:
     options = _parser().parse_args(arguments)
     if not (math.isfinite(options.scale) and options.scale > 0.0):
         raise InputError(f"--scale {options.scale} is not a positive factor")
-    terrain = load_terrain(Path(options.file), options.scale)
-    features = PerceptionConfig().features
+    config = PerceptionConfig()
+    features = config.features
+    terrain = (
+        _pair(options, config)
+        if options.right or options.calibration
+        else load_terrain(Path(options.file), options.scale)
+    )
     if isinstance(terrain, Cloud):
         report = report_on_cloud(terrain, options.mode, features)
     else:
         report = report_on_grid(terrain, options.mode, features)
     print(json.dumps(as_json(report), allow_nan=False) if options.json else as_text(report))
     return 0
+
+
+def _pair(options: argparse.Namespace, config: PerceptionConfig) -> Cloud:
+    if not (options.right and options.calibration):
+        raise InputError("a stereo pair needs the right eye's picture (--right) and its calibration (--calibration)")
+    calibration = read_camchain(Path(options.calibration))
+    cloud = stereo_cloud(read_pair(Path(options.file), Path(options.right), calibration), calibration, config)
+    return Cloud(points=cloud.points * options.scale, labelled_up=None)
 
 
 def as_json(report: TerrainReport) -> dict[str, object]:
@@ -71,13 +86,19 @@ def _number(value: float) -> float | None:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="weaver terrain",
-        description="Ground plane, features f1..f7, roughness, step height and flat tops of a point cloud or an "
-        "elevation grid.",
+        description="Ground plane, features f1..f7, roughness, step height and flat tops of a point cloud, an "
+        "elevation grid or a stereo pair.",
         epilog="tilt_deg is the angle in degrees between the plane's normal and the file's labelled up direction; "
         "where there is none, the camera's up axis (-y) for a cloud in the optical frame, and +z otherwise. "
         "normal_in_input points towards the sensor, or up. steps are heights in m of flat places above the ground.",
     )
-    parser.add_argument("file", metavar="FILE", help=".npz with a cloud (xyz) or a grid (elevation and resolution)")
+    parser.add_argument(
+        "file",
+        metavar="FILE",
+        help=".npz with a cloud (xyz) or a grid (elevation and resolution), or the left picture of a stereo pair",
+    )
+    parser.add_argument("--right", metavar="FILE", help="the right picture of the pair")
+    parser.add_argument("--calibration", metavar="FILE", help="the pair's calibration, Kalibr's camchain.yaml (px, m)")
     parser.add_argument(
         "--mode",
         choices=("robust", "paper"),

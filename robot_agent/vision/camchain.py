@@ -1,0 +1,78 @@
+"""A stereo calibration from Kalibr's `camchain.yaml`: cam0 is the left eye, cam1 the right one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+from numpy.typing import NDArray
+
+from robot_agent.vision.camera import Distortion, PinholeCamera, StereoCalibration
+from weaver_shared.errors import InputError
+from weaver_shared.transforms import Pose
+
+MODELS: dict[str, Distortion] = {"none": "none", "radtan": "radtan", "equidistant": "equidistant"}
+
+
+def read_camchain(path: Path) -> StereoCalibration:
+    """The pair in the left eye's optical frame. Raises InputError naming the key, what was found and what is valid."""
+    try:
+        document = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        reason = str(error).splitlines()[0]
+        raise InputError(f"{path} can not be read as Kalibr's camchain.yaml: {reason}") from error
+    if not isinstance(document, dict) or not isinstance(document.get("cam0"), dict):
+        raise InputError(f"{path}: cam0 is missing; a camchain.yaml has cam0 and cam1")
+    if not isinstance(document.get("cam1"), dict):
+        raise InputError(f"{path}: cam1 is missing; a stereo pair needs both cam0 and cam1")
+    right_from_left = _pose(_numbers(document["cam1"], "T_cn_cnm1", (4, 4), f"{path}: cam1"), path)
+    return StereoCalibration(
+        left=_camera(document["cam0"], Pose.identity(), f"{path}: cam0"),
+        right=_camera(document["cam1"], right_from_left.inverse(), f"{path}: cam1"),
+    )
+
+
+def _camera(entry: dict[str, Any], left_from_camera: Pose, where: str) -> PinholeCamera:
+    model = entry.get("camera_model", "pinhole")
+    if model != "pinhole":
+        raise InputError(f"{where}: camera_model {model!r} is unknown; valid is pinhole")
+    distortion = entry.get("distortion_model", "none")
+    if distortion not in MODELS:
+        raise InputError(f"{where}: distortion_model {distortion!r} is unknown; valid are {', '.join(MODELS)}")
+    width, height = _numbers(entry, "resolution", (2,), where)
+    fx, fy, cx, cy = _numbers(entry, "intrinsics", (4,), where)
+    if min(width, height, fx, fy) <= 0.0:
+        raise InputError(f"{where}: resolution and focal lengths have to be above zero")
+    coefficients = np.zeros(4) if distortion == "none" else _numbers(entry, "distortion_coeffs", (4,), where)
+    return PinholeCamera(
+        width=int(width),
+        height=int(height),
+        fx=float(fx),
+        fy=float(fy),
+        cx=float(cx),
+        cy=float(cy),
+        distortion_model=MODELS[distortion],
+        distortion=coefficients,
+        body_from_camera=left_from_camera,
+    )
+
+
+def _numbers(entry: dict[str, Any], key: str, shape: tuple[int, ...], where: str) -> NDArray[np.float64]:
+    try:
+        numbers = np.array(entry[key], dtype=np.float64)
+    except KeyError as error:
+        raise InputError(f"{where}: {key} is missing") from error
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{where}: {key} has to be numbers, found {entry[key]!r:.60}") from error
+    if numbers.shape != shape or not np.isfinite(numbers).all():
+        raise InputError(f"{where}: {key} has to be {'x'.join(map(str, shape))} numbers, found {entry[key]!r:.60}")
+    return numbers
+
+
+def _pose(matrix: NDArray[np.float64], path: Path) -> Pose:
+    u, singular, vt = np.linalg.svd(matrix[:3, :3])  # the file's digits are rounded
+    if abs(singular - 1.0).max() > 1e-3 or np.linalg.det(u @ vt) < 0.0:
+        raise InputError(f"{path}: cam1: T_cn_cnm1 is no rigid transform")
+    return Pose(rotation=u @ vt, position=matrix[:3, 3])
