@@ -14,14 +14,20 @@ from robot_agent.kinematics.compiled import kernel
 Array = NDArray[np.float64]
 
 
+def with_turns(dh: Array) -> Array:
+    """Rows theta, d, r, alpha, (n, 4), with cos alpha and sin alpha, (n, 6), which no tick needs to compute again."""
+    return np.column_stack([dh, np.cos(dh[:, 3]), np.sin(dh[:, 3])])
+
+
 @kernel
 def leg_frames(
     dh: Array, hip_in_body: Array, hip_axes: Array, joint_position: Array, origins: Array, axes: Array
 ) -> None:
     """Fill `origins` (n + 1, 3), joint origins and then the foot, and `axes` (n, 3), joint axes; both in body.
 
-    `dh` is (n, 4), `joint_position` (n,) rad, `hip_in_body` (3,) m. `hip_axes` (3, 3) has the chain's first axes as
-    columns, in body; those of a mirrored leg are left-handed, and its joints turn the other way about theirs.
+    `dh` is (n, 6), see `with_turns`; `joint_position` (n,) rad, `hip_in_body` (3,) m. `hip_axes` (3, 3) has the chain's
+    first axes as columns, in body; those of a mirrored leg are left-handed, and its joints turn the other way about
+    theirs.
     """
     xx, xy, xz = hip_axes[0, 0], hip_axes[1, 0], hip_axes[2, 0]
     yx, yy, yz = hip_axes[0, 1], hip_axes[1, 1], hip_axes[2, 1]
@@ -32,7 +38,7 @@ def leg_frames(
         origins[i, 0], origins[i, 1], origins[i, 2] = px, py, pz
         axes[i, 0], axes[i, 1], axes[i, 2] = side * zx, side * zy, side * zz
         c, s = cos(dh[i, 0] + joint_position[i]), sin(dh[i, 0] + joint_position[i])
-        ca, sa = cos(dh[i, 3]), sin(dh[i, 3])
+        ca, sa = dh[i, 4], dh[i, 5]
         nx, ny, nz = c * xx + s * yx, c * xy + s * yy, c * xz + s * yz
         tx, ty, tz = -s * xx + c * yx, -s * xy + c * yy, -s * xz + c * yz
         d, r = dh[i, 1], dh[i, 2]

@@ -6,11 +6,14 @@ from numpy.typing import NDArray
 from robot_agent.kinematics.closed_form import solve_closed_form
 from robot_agent.kinematics.compiled import kernel
 from robot_agent.kinematics.damped import solve_damped
+from robot_agent.kinematics.yaw_pitch import solve_yaw_pitch
 
 Array = NDArray[np.float64]
 
 TOLERANCE = 1e-6
 """Distance, m, at which the iteration is content."""
+ITERATIVE, YAW_ROLL_PITCH, YAW_PITCH = 0, 1, 2
+"""Which closed form a leg has."""
 
 
 @kernel
@@ -33,7 +36,12 @@ def solve_leg(
         if not (np.isfinite(foot_in_body[k]) and np.isfinite(direction[k])):
             solution[:] = previous
             return np.inf
-    if closed_form == 1 and solve_closed_form(dh, limits, hip_in_body, hip_axes, foot_in_body, direction, solution):
+    exact = False
+    if closed_form == YAW_ROLL_PITCH:
+        exact = solve_closed_form(dh, limits, hip_in_body, hip_axes, foot_in_body, direction, solution)
+    elif closed_form == YAW_PITCH:
+        exact = solve_yaw_pitch(dh, limits, hip_in_body, hip_axes, foot_in_body, previous, solution)
+    if exact:
         return 0.0
     solution[:] = previous
     return solve_damped(dh, limits, hip_in_body, hip_axes, foot_in_body, direction, TOLERANCE, solution)

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.kinematics.chain import with_turns
+from robot_agent.kinematics.inverse import ITERATIVE, YAW_PITCH, YAW_ROLL_PITCH
+from robot_agent.kinematics.yaw_pitch import is_yaw_pitch
 from weaver_shared.robots import RobotDescription
 
 Array = NDArray[np.float64]
@@ -19,7 +22,7 @@ DUTY_PER_RADIAN = 0.158
 class LegModel:
     """All legs share one chain of n joints; they differ in where it starts."""
 
-    dh: Array  # (n, 4) theta, d, r, alpha
+    dh: Array  # (n, 6) theta, d, r, alpha, cos alpha, sin alpha
     limits: Array  # (n, 2) rad
     hips: Array  # (legs, 3) in body, m
     hip_axes: Array  # (legs, 3, 3) in body, columns are the axes a chain begins with
@@ -27,7 +30,7 @@ class LegModel:
     speed_limit: Array  # (n,) rad/s
     servo_stiffness: Array  # (n,) N m/rad of the position loop
     servo_lag: Array  # (n,) s, back-EMF damping over stiffness
-    yaw_roll_pitch: bool  # the chain has a closed form, see `closed_form`
+    closed_form: int  # which one the chain has, see `inverse`
 
     @property
     def leg_count(self) -> int:
@@ -51,7 +54,7 @@ class LegModel:
         ]
         damping = [s.torque_constant**2 / s.resistance + s.viscous_friction for s in servos]
         return LegModel(
-            dh=robot.dh,
+            dh=with_turns(robot.dh),
             limits=robot.joint_limits,
             hips=robot.hips_in_body,
             hip_axes=robot.hip_axes,
@@ -59,8 +62,14 @@ class LegModel:
             speed_limit=np.array([speed_fraction * s.no_load_speed for s in servos]),
             servo_stiffness=np.array(stiffness),
             servo_lag=np.array(damping) / np.array(stiffness),
-            yaw_roll_pitch=is_yaw_roll_pitch(robot.dh) and not any(leg.hip_roll or leg.mirrored for leg in robot.legs),
+            closed_form=_closed_form(robot),
         )
+
+
+def _closed_form(robot: RobotDescription) -> int:
+    if is_yaw_roll_pitch(robot.dh) and not any(leg.hip_roll or leg.mirrored for leg in robot.legs):
+        return YAW_ROLL_PITCH
+    return YAW_PITCH if is_yaw_pitch(robot.dh) else ITERATIVE
 
 
 def is_yaw_roll_pitch(dh: Array) -> bool:

@@ -34,7 +34,7 @@ def follow_plane(walk: Record) -> None:
     for leg in range(legs):
         weight[leg] = HANGING_WEIGHT if walk.feet.mode[leg] == HANG else 1.0
     fresh[:] = body.plane
-    body.residual = fit_plane(walk.feet.anchor[:legs], weight, fresh)
+    walk.answer.residual = fit_plane(walk.feet.anchor[:legs], weight, fresh)
     for k in range(3):
         body.plane[k] += blend * (fresh[k] - body.plane[k])
 

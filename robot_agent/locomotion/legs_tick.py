@@ -6,7 +6,7 @@ from robot_agent.kinematics import limit_joint_speed, solve_leg
 from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.body_velocity import clean_velocity
 from robot_agent.locomotion.energy_margin import energy_margin
-from robot_agent.locomotion.feet import STAND
+from robot_agent.locomotion.feet import REACH, STAND, SWING
 from robot_agent.locomotion.gait_parameters import follow_parameters
 from robot_agent.locomotion.reasons import SERVO_SPEED
 from robot_agent.locomotion.senses import measure, sense
@@ -48,18 +48,23 @@ def believe(memory: Array) -> None:
 
 
 @kernel
-def walk_tick(memory: Array) -> None:
-    """Stand or walk: from the ordered velocity to the servos' targets."""
-    step_tick(memory)
+def walk_tick(memory: Array) -> bool:
+    """Stand or walk: from the ordered velocity to the servos' targets. Returns whether the robot walks."""
+    walking = step_tick(memory)
     place_tick(memory)
+    return walking
 
 
 @kernel
-def step_tick(memory: Array) -> None:
+def step_tick(memory: Array) -> bool:
     """The first part of `walk_tick`: where the feet belong in the body as it would be without posing."""
     walk = memory[0]
     hold_angles(walk)
     step(walk)
+    mode = walk.feet.mode
+    for leg in range(walk.model.legs):
+        walk.feet.in_air[leg] = mode[leg] == SWING or mode[leg] == REACH
+    return bool(walk.gait.walking)
 
 
 @kernel
@@ -68,7 +73,7 @@ def place_tick(memory: Array) -> None:
     walk = memory[0]
     place_feet(walk)
     reach_feet(walk)
-    target_servos(walk)
+    target_servos(walk, True)
 
 
 @kernel
@@ -77,18 +82,18 @@ def foot_tick(memory: Array) -> None:
     walk = memory[0]
     hold_angles(walk)
     reach_feet(walk)
-    target_servos(walk)
+    target_servos(walk, True)
 
 
 @kernel
-def joint_tick(memory: Array, angles: Array) -> None:
-    """Follow joint `angles` (legs, n)."""
+def joint_tick(memory: Array, angles: Array, lead: bool) -> None:
+    """Follow joint `angles` (legs, n), with or without leading the servos."""
     walk = memory[0]
     hold_angles(walk)
     for leg in range(angles.shape[0]):
         for i in range(angles.shape[1]):
             walk.joint.wanted[leg, i] = angles[leg, i]
-    target_servos(walk)
+    target_servos(walk, lead)
 
 
 @kernel
@@ -98,6 +103,12 @@ def solve_feet(memory: Array, feet: Array) -> None:
     for leg in range(walk.model.legs):
         walk.joint.foot[leg, :] = feet[leg]
     reach_feet(walk)
+
+
+@kernel
+def hold_tick(memory: Array) -> None:
+    """Begin a search for joint angles at those wanted now."""
+    hold_angles(memory[0])
 
 
 @kernel
@@ -143,7 +154,7 @@ def reach_feet(walk: Record) -> None:
 
 
 @kernel
-def target_servos(walk: Record) -> None:
+def target_servos(walk: Record, lead: bool) -> None:
     """Keep the speed limits, legs on the ground together, and lead the servos by what they lack."""
     model, joint, legs = walk.model, walk.joint, walk.model.legs
     together = np.empty(legs, dtype=np.bool_)
@@ -154,7 +165,9 @@ def target_servos(walk: Record) -> None:
     if factor < 1.0:
         walk.gait.pace = min(walk.gait.pace, max(factor, SLOWEST_PACE))  # the gait takes its time
         walk.answer.reasons |= SERVO_SPEED
-    if walk.settings.compensate_servos and joint.lead:
+    if lead and walk.settings.compensate_servos:
         lead_servos(walk)
-    else:
-        joint.target[:] = joint.wanted
+        return
+    for leg in range(legs):
+        for i in range(model.joints):
+            joint.target[leg * model.joints + i] = joint.wanted[leg, i]

@@ -58,12 +58,13 @@ def _unpose(turn: Array, shift: Array, point: Array, result: Array) -> None:
 
 @kernel
 def _take(kept: Array, new: Array, legs: int, joints: int) -> bool:
-    """Copy the finite values of `new` (legs, n); False if any was not finite."""
+    """Copy the finite values of `new` (legs * n,) into `kept` (legs, n); False if any was not finite."""
     complete = True
     for leg in range(legs):
         for i in range(joints):
-            if np.isfinite(new[leg, i]):
-                kept[leg, i] = new[leg, i]
+            value = new[leg * joints + i]
+            if np.isfinite(value):
+                kept[leg, i] = value
             else:
                 complete = False
     return complete

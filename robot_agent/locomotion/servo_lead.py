@@ -19,4 +19,4 @@ def lead_servos(walk: Record) -> None:
             torque = senses.own_torque[leg, i] - lever * load
             rate = (joint.wanted[leg, i] - joint.previous[leg, i]) / model.dt
             value = joint.wanted[leg, i] + torque / model.servo_stiffness[i] + model.servo_lag[i] * rate
-            joint.target[leg, i] = min(max(value, model.limits[i, 0]), model.limits[i, 1])
+            joint.target[leg * model.joints + i] = min(max(value, model.limits[i, 0]), model.limits[i, 1])

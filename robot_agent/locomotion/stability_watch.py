@@ -29,6 +29,11 @@ class StabilityWatch:
         self._good_for = 0.0
 
     @property
+    def calm(self) -> bool:
+        """Whether there is nothing to say or do."""
+        return self._level == GOOD
+
+    @property
     def level(self) -> str:
         return LEVELS[self._level]
 
@@ -44,6 +49,9 @@ class StabilityWatch:
 
     def update(self, static: float, energy: float) -> None:
         """Take this tick's margins, m."""
+        if self._level == GOOD and static >= self._static[0] and energy >= self._energy[0]:
+            self._low_for[:] = (0.0, 0.0, 0.0)  # the usual case, in short
+            return
         for index in range(REFUSE):
             low = not (static >= self._static[index] and energy >= self._energy[index])  # NaN is low
             self._low_for[index] = self._low_for[index] + self._dt if low else 0.0

@@ -27,7 +27,7 @@ MODEL = np.dtype(
         ("legs", N),
         ("joints", N),  # of a leg
         ("closed_form", N),  # see `kinematics.inverse`
-        ("dh", F, (JOINTS, 4)),  # theta, d, r, alpha
+        ("dh", F, (JOINTS, 6)),  # theta, d, r, alpha, cos alpha, sin alpha
         ("limits", F, (JOINTS, 2)),  # rad
         ("hips", F, (LEGS, 3)),  # m in body
         ("hip_axes", F, (LEGS, 3, 3)),
@@ -62,8 +62,8 @@ ORDERS = np.dtype(
 
 READINGS = np.dtype(
     [
-        ("joint_position", F, (LEGS, JOINTS)),
-        ("joint_torque", F, (LEGS, JOINTS)),
+        ("joint_position", F, (LEGS * JOINTS,)),  # leg by leg, without gaps
+        ("joint_torque", F, (LEGS * JOINTS,)),
         ("contact", N, (LEGS,)),
         ("gravity", F, (3,)),
     ]
@@ -98,6 +98,7 @@ FEET = np.dtype(
         ("swing_height", F, (LEGS,)),
         ("reached", F, (LEGS,)),  # m below the expected ground
         ("stance", F, (LEGS, 3)),  # middle of every stance, shifted for the inclination
+        ("in_air", np.uint8, (LEGS,)),  # a bool; numba has none in records
     ]
 )
 
@@ -125,7 +126,6 @@ GAIT = np.dtype(
 BODY = np.dtype(
     [
         ("plane", F, (3,)),  # z = a x + b y + c through the feet, low-passed
-        ("residual", F),  # m rms of the feet about it
         ("shift", F, (2,)),  # m of the stance against gravity's inclination
         ("linear", F, (3,)),  # m/s of posture alone
         ("angular", F, (3,)),  # rad/s
@@ -150,13 +150,19 @@ JOINT = np.dtype(
         ("foot", F, (LEGS, 3)),  # m in body, wanted
         ("previous", F, (LEGS, JOINTS)),
         ("wanted", F, (LEGS, JOINTS)),  # without the servos' lead
-        ("target", F, (LEGS, JOINTS)),  # with it
+        ("target", F, (LEGS * JOINTS,)),  # with it, leg by leg, without gaps
         ("distance_left", F, (LEGS,)),  # m
-        ("lead", N),  # whether targets lead the wanted angles
     ]
 )
 
-ANSWER = np.dtype([("reasons", N), ("static_margin", F), ("energy_margin", F)])
+ANSWER = np.dtype(
+    [
+        ("reasons", N),  # bits, see `reasons`
+        ("static_margin", F),
+        ("energy_margin", F),
+        ("residual", F),  # m rms of the feet about the ground plane
+    ]
+)
 
 
 SECTIONS = ("admittance", "posture", "foothold")
@@ -210,9 +216,9 @@ class WalkState:
     def __init__(self, legs: int, joints: int) -> None:
         self.memory = np.zeros(1, WALK)
         self.record = self.memory[0]
-        self._size = {LEGS: legs, JOINTS: joints, JOINTS + 1: joints + 1}
+        self._size = {LEGS: legs, JOINTS: joints, JOINTS + 1: joints + 1, LEGS * JOINTS: legs * joints}
 
     def cut(self, part: str, field: str) -> Array:
-        """The used part of a field, sharing memory: (legs, ...), (legs, joints, ...) or as it is."""
+        """The used part of a field, sharing memory: (legs, ...), (legs, joints, ...), (all joints,) or as it is."""
         whole: Array = self.record[part][field]
         return whole[tuple(slice(self._size.get(n, n)) for n in whole.shape)]

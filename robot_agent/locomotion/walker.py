@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.kinematics import LegModel
-from robot_agent.locomotion.feet import REACH, SWING
 from robot_agent.locomotion.legs_tick import (
     believe,
     foot_tick,
+    hold_tick,
     joint_tick,
     place_tick,
     sense_tick,
@@ -47,15 +45,13 @@ class Walker:
         self._model = model = LegModel.of_robot(robot, speed_fraction=config.speed_fraction)
         self._state = state = walker_memory(robot, model, config, dt)
         self._memory = state.memory
-        self._answer_record, self._gait_record = state.record["answer"], state.record["gait"]
-        self._joint_record = state.record["joint"]
+        self._limits = state.record["answer"]
         self._velocity, self._parameters = state.cut("orders", "velocity"), state.cut("orders", "parameters")
-        self._readings = {
-            name: state.cut("readings", name) for name in ("joint_position", "joint_torque", "contact", "gravity")
-        }
+        self._position, self._torque = state.cut("readings", "joint_position"), state.cut("readings", "joint_torque")
+        self._contact, self._gravity = state.cut("readings", "contact"), state.cut("readings", "gravity")
         self._measured_feet = state.cut("senses", "origins")[:, -1]  # m in body
         self._force = state.cut("senses", "force")
-        self._mode = state.cut("feet", "mode")
+        self._in_air = state.cut("feet", "in_air").view(np.bool_)
         self._phase = state.cut("gait", "leg_phase")
         self._walked = state.cut("gait", "velocity")
         self._plane = state.cut("body", "plane")
@@ -65,6 +61,7 @@ class Walker:
         self._load = state.cut("load", "load")
         self._sitting_height = float(robot.sitting_in_body[0, 2]) + config.sitting_lift
         self._gait: Gait | None = None
+        self._gait_is_static = False
         self._poser = Poser(config, model, robot.stance_in_body, np.array(robot.body.centre_of_mass_in_body), dt)
         self._up = state.cut("senses", "up")
         self._stability = StabilityWatch(config.stability, dt)
@@ -83,12 +80,15 @@ class Walker:
         self._posture = "sitting"
         self._joint_glide = self._foot_glide = None
         self._poser.clear()
+        self._in_air[:], self._walked[:] = False, 0.0
         self._state.record["orders"]["posing_rotation"] = np.eye(3)
         self._state.record["orders"]["posing_position"] = 0.0
 
     def begin_standing(self) -> Array:
         """Be standing at once, feet on their stance; returns the joint angles (joints,) that this means."""
         stance = self._robot.stance_in_body
+        self._angles[:] = self._robot.standing_search
+        hold_tick(self._memory)
         solve_feet(self._memory, stance)
         believe(self._memory)
         stand(self._memory, stance, 1.0)
@@ -107,16 +107,25 @@ class Walker:
         return self._answer(reasons + self._poser.reasons)
 
     def _take(self, sensed: WalkInput) -> tuple[str, ...]:
-        """Write a tick's readings and orders into the memory; what has the wrong size counts as missing."""
-        readings, parameters = self._readings, sensed.parameters
-        _fill(readings["joint_position"], sensed.joint_position)
-        _fill(readings["joint_torque"], sensed.joint_torque)
-        _fill(readings["gravity"], sensed.gravity_in_body)
-        _fill(readings["contact"], sensed.foot_contact)
-        _fill(self._velocity, sensed.velocity)
-        ordered = (parameters.stride_frequency, parameters.stride_height, parameters.virtual_stiffness)
-        self._parameters[0], self._parameters[1], self._parameters[2] = ordered
+        """Write a tick's readings and orders into the memory; what has the wrong size or kind counts as missing."""
+        parameters, ordered = sensed.parameters, self._parameters
+        try:
+            self._position[:] = sensed.joint_position
+            self._torque[:] = sensed.joint_torque
+            self._gravity[:] = sensed.gravity_in_body
+            self._contact[:] = sensed.foot_contact
+            self._velocity[:] = sensed.velocity
+            ordered[0] = parameters.stride_frequency
+            ordered[1] = parameters.stride_height
+            ordered[2] = parameters.virtual_stiffness
+        except (ValueError, TypeError):
+            self._miss_all()
         return self._choose_gait(sensed.gait)
+
+    def _miss_all(self) -> None:
+        for array in (self._position, self._torque, self._gravity, self._velocity, self._parameters):
+            array[:] = np.nan
+        self._contact[:] = 0
 
     def _choose_gait(self, name: str) -> tuple[str, ...]:
         """An unknown gait leaves the one in use."""
@@ -125,28 +134,28 @@ class Walker:
             return (f"gait {name!r} is unknown",)
         if gait is not self._gait:
             orders = self._state.record["orders"]
-            self._gait, orders["duty"] = gait, gait.duty
+            self._gait, self._gait_is_static, orders["duty"] = gait, is_static(gait), gait.duty
             self._state.cut("orders", "offset")[:] = gait.offsets
         return ()
 
     def _judge_stability(self, upright: bool) -> tuple[str, ...]:
         """Slow down, by the margins of the feet that carry, while the robot is on its legs in a static gait."""
-        watch, answer = self._stability, self._answer_record
-        assert self._gait is not None
-        if upright and is_static(self._gait):
-            watch.update(float(answer["static_margin"]), float(answer["energy_margin"]))
-        else:
+        watch = self._stability
+        if not (upright and self._gait_is_static):
             watch.clear()
-        if watch.factor < 1.0:
-            self._velocity *= watch.factor
+            return ()
+        _, static, energy, _ = self._limits.item()
+        watch.update(static, energy)
+        if watch.calm:
+            return ()
+        self._velocity *= watch.factor
         return watch.reasons
 
     def _act(self, wants_to_stand: bool, posing: PosingOrder) -> None:
         """Set this tick's servo targets according to the posture."""
-        self._joint_record["lead"] = self._posture != "sitting"
         if self._posture == "sitting":
             self._load[:] = 0.0
-            joint_tick(self._memory, self._angles.copy())
+            joint_tick(self._memory, self._angles.copy(), False)
             if wants_to_stand:
                 self._begin_rising()
         elif self._posture in ("rising", "lowering"):
@@ -158,21 +167,21 @@ class Walker:
 
     def _walk(self, posing: PosingOrder) -> None:
         if self._poser.idle and posing.idle:
-            walk_tick(self._memory)
+            walking = walk_tick(self._memory)
         else:
-            step_tick(self._memory)
-            self._pose(posing)
+            walking = step_tick(self._memory)
+            self._pose(posing, walking)
             place_tick(self._memory)
-        self._posture = "walking" if self._gait_record["walking"] else "standing"
+        self._posture = "walking" if walking else "standing"
 
-    def _pose(self, posing: PosingOrder) -> None:
+    def _pose(self, posing: PosingOrder, walking: bool) -> None:
         """Pose the body against its un-posed place, in which the feet's places are wanted."""
-        gait, orders = self._gait_record, self._state.record["orders"]
+        gait, orders = self._state.record["gait"], self._state.record["orders"]
         assert self._gait is not None
         pose = self._poser.step(
             posing,
             self._up,
-            walking=bool(gait["walking"]),
+            walking=walking,
             gait=self._gait,
             leg_phase=self._phase,
             swing=1.0 - float(gait["duty"]),
@@ -203,7 +212,7 @@ class Walker:
     def _glide(self, wants_to_stand: bool) -> None:
         if self._joint_glide is not None and not self._joint_glide.done:
             self._load[:] = 0.0
-            joint_tick(self._memory, self._joint_glide.step(self._dt))
+            joint_tick(self._memory, self._joint_glide.step(self._dt), True)
             return
         if wants_to_stand != (self._posture == "rising"):
             self._turn_back(wants_to_stand)
@@ -233,28 +242,20 @@ class Walker:
             self._posture = "sitting"
 
     def _answer(self, reasons: tuple[str, ...]) -> WalkOutput:
-        answer, mode = self._answer_record, self._mode
-        upright = self._posture in ("standing", "walking")
+        limits, static, energy, residual = self._limits.item()
         return WalkOutput(
-            joint_position=self._target.ravel(),
+            joint_position=self._target.copy(),
             foot_in_body=self._feet.copy(),
             foot_force=self._force.copy(),
             phase=self._phase.copy(),
-            swing=((mode == SWING) | (mode == REACH)) & upright,
-            velocity=self._walked.copy() if self._posture == "walking" else np.zeros(3),
-            stability_margin=float(answer["static_margin"]),
-            energy_margin=float(answer["energy_margin"]),
+            swing=self._in_air.copy(),
+            velocity=self._walked.copy(),
+            stability_margin=static,
+            energy_margin=energy,
             stability=self._stability.level,
             ground_plane=self._plane.copy(),
-            ground_residual=float(self._state.record["body"]["residual"]),
+            ground_residual=residual,
             unposed_from_body=self._poser.pose,
             posture=self._posture,
-            reasons=sentences(int(answer["reasons"])) + reasons,
+            reasons=sentences(limits) + reasons,
         )
-
-
-def _fill(field: Array, values: NDArray[Any]) -> None:
-    try:
-        field[...] = np.reshape(values, field.shape)
-    except (ValueError, TypeError):
-        field[...] = 0 if field.dtype.kind == "i" else np.nan

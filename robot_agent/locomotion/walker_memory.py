@@ -45,7 +45,7 @@ def walker_memory(robot: RobotDescription, model: LegModel, config: LocomotionCo
 def _write_model(state: WalkState, robot: RobotDescription, model: LegModel) -> None:
     record = state.record["model"]
     record["legs"], record["joints"] = model.leg_count, model.joints_per_leg
-    record["closed_form"] = model.yaw_roll_pitch
+    record["closed_form"] = model.closed_form
     record["trunk_mass"], record["trunk_centre"] = robot.body.mass, robot.body.centre_of_mass_in_body
     record["weight"] = robot.mass * GRAVITY
     arrays = {

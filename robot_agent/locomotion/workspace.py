@@ -23,7 +23,7 @@ def reachable_radius(model: LegModel, stance_in_body: Array, heights: Array, lar
     """
     limits = model.limits + np.array([LIMIT_MARGIN, -LIMIT_MARGIN])
     radius = np.zeros((model.leg_count, BEARINGS))
-    _fill(model.dh, limits, model.yaw_roll_pitch, model.hips, model.hip_axes, stance_in_body, heights, largest, radius)
+    _fill(model.dh, limits, model.closed_form, model.hips, model.hip_axes, stance_in_body, heights, largest, radius)
     opposite: Array = np.minimum(radius, np.roll(radius, BEARINGS // 2, axis=1))
     return opposite
 
@@ -32,7 +32,7 @@ def reachable_radius(model: LegModel, stance_in_body: Array, heights: Array, lar
 def _fill(
     dh: Array,
     limits: Array,
-    yaw_roll_pitch: bool,
+    closed_form: int,
     hips: Array,
     hip_axes: Array,
     stance: Array,
@@ -55,7 +55,7 @@ def _fill(
                     foot[0] = stance[leg, 0] + (far + RADIUS_STEP) * np.cos(angle)
                     foot[1] = stance[leg, 1] + (far + RADIUS_STEP) * np.sin(angle)
                     foot[2] = stance[leg, 2] + height
-                    left = solve_leg(dh, limits, yaw_roll_pitch, hips[leg], hip_axes[leg], foot, down, guess, joints)
+                    left = solve_leg(dh, limits, closed_form, hips[leg], hip_axes[leg], foot, down, guess, joints)
                     if left > 1e-3:
                         break
                     guess[:] = joints

@@ -81,7 +81,7 @@ def test_inverse_after_forward_is_the_identity_on_feet(leg, fractions):
     direction = (origins[5] - origins[4]) / ROBOT.dh[4, 2]
     solution = np.zeros(5)
     left = solve_leg(
-        MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_axes[leg], origins[5].copy(), direction,
+        MODEL.dh, MODEL.limits, MODEL.closed_form, MODEL.hips[leg], MODEL.hip_axes[leg], origins[5].copy(), direction,
         angles + 0.05, solution,
     )  # fmt: skip
     reached, _ = frames(leg, solution)
@@ -97,7 +97,15 @@ def test_near_the_stance_the_last_link_points_where_it_should(leg, dx, dy, dz, t
     direction = np.array([np.sin(tilt), 0.0, -np.cos(tilt)])
     solution = np.zeros(5)
     solve_leg(
-        MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_axes[leg], foot, direction, np.zeros(5), solution
+        MODEL.dh,
+        MODEL.limits,
+        MODEL.closed_form,
+        MODEL.hips[leg],
+        MODEL.hip_axes[leg],
+        foot,
+        direction,
+        np.zeros(5),
+        solution,
     )
     origins, _ = frames(leg, solution)
     np.testing.assert_allclose(origins[5], foot, atol=1e-9)
@@ -111,7 +119,17 @@ def test_standing_feet_carry_a_vertical_last_link():
     for leg in range(6):
         solution = np.zeros(5)
         foot = ROBOT.stance_in_body[leg]
-        solve_leg(MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_axes[leg], foot, DOWN, np.zeros(5), solution)
+        solve_leg(
+            MODEL.dh,
+            MODEL.limits,
+            MODEL.closed_form,
+            MODEL.hips[leg],
+            MODEL.hip_axes[leg],
+            foot,
+            DOWN,
+            np.zeros(5),
+            solution,
+        )
         origins, _ = frames(leg, solution)
         np.testing.assert_allclose((origins[5] - origins[4]) / ROBOT.dh[4, 2], DOWN, atol=1e-9)
 
@@ -137,7 +155,15 @@ def test_a_foot_out_of_reach_keeps_the_limits_and_comes_as_near_as_it_says(leg, 
     foot = np.array([x, y, z])
     solution = np.zeros(5)
     left = solve_leg(
-        MODEL.dh, MODEL.limits, True, MODEL.hips[leg], MODEL.hip_axes[leg], foot, DOWN, np.zeros(5), solution
+        MODEL.dh,
+        MODEL.limits,
+        MODEL.closed_form,
+        MODEL.hips[leg],
+        MODEL.hip_axes[leg],
+        foot,
+        DOWN,
+        np.zeros(5),
+        solution,
     )
     assert (solution >= MODEL.limits[:, 0] - 1e-12).all()
     assert (solution <= MODEL.limits[:, 1] + 1e-12).all()
@@ -148,7 +174,9 @@ def test_a_foot_out_of_reach_keeps_the_limits_and_comes_as_near_as_it_says(leg, 
 def test_a_foot_that_is_no_place_leaves_the_joints_where_they_were(bad):
     previous, solution = np.full(5, 0.1), np.zeros(5)
     foot = np.array([0.3, bad, -0.1])
-    left = solve_leg(MODEL.dh, MODEL.limits, True, MODEL.hips[0], MODEL.hip_axes[0], foot, DOWN, previous, solution)
+    left = solve_leg(
+        MODEL.dh, MODEL.limits, MODEL.closed_form, MODEL.hips[0], MODEL.hip_axes[0], foot, DOWN, previous, solution
+    )
     assert left == np.inf
     np.testing.assert_array_equal(solution, previous)
 

@@ -73,7 +73,7 @@ class PoseReach:
         solve_legs(
             model.dh,
             self._limits,
-            model.yaw_roll_pitch,
+            model.closed_form,
             model.hips,
             model.hip_axes,
             feet_in_body,
