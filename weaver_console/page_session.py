@@ -22,9 +22,11 @@ from weaver_console.robot_record import RobotRecord
 from weaver_console.roster import Roster
 from weaver_console.scene.layers import LAYERS, Legend, legend
 from weaver_console.scene.page_scene import PageScene
+from weaver_shared.config.navigation import PathFollowerConfig
 from weaver_shared.errors import InputError, MessageError
 from weaver_shared.messages import CommandName, Waypoint
 
+FOLLOWER = PathFollowerConfig()
 TICK, THRIFTY_TICK = 0.05, 0.2
 """Seconds between two batches, and where the browser draws without a graphics card."""
 
@@ -75,6 +77,8 @@ class PageSession:
             "scene": f"/viser/{self.scene_key}/" if with_scene else None,
             "layers": list(LAYERS),
             "layer": self._layer,
+            "passing_radius_m": FOLLOWER.acceptance_radius,
+            "goal_radius_m": FOLLOWER.goal_radius,
             "schema": 1,
         }
         self.tell(hello)

@@ -66,10 +66,11 @@ class Course:
 class MissionFigure:
     """Draws a course anew only when it or the ground under its waypoints changes; the leg ahead follows the robot."""
 
-    def __init__(self, scene: Any, name: str, *, acceptance_radius: float) -> None:
+    def __init__(self, scene: Any, name: str, *, passing_radius: float, goal_radius: float) -> None:
+        """Circles about waypoints have the radius, in m, within which the robot passes them or has arrived."""
         self._scene = scene
         self._name = name
-        self._radius = acceptance_radius
+        self._passing_radius, self._goal_radius = passing_radius, goal_radius
         self._drawn: dict[str, tuple[object, Any]] = {}
         self._leg = Lines(scene, f"{name}/leg", _SENT, thickness=0.012)
         self._leg_shown: object = None
@@ -97,7 +98,8 @@ class MissionFigure:
         root = self._scene.add_frame(name, show_axes=False)
         feet = np.column_stack([np.array(course.places), heights])
         self._add_marks(name, feet, course.shades)
-        circles = [chained(self._circle(ground, foot)) for foot in feet]
+        radii = [self._passing_radius] * (len(feet) - 1) + [self._goal_radius]
+        circles = [chained(_circle(ground, foot, radius)) for foot, radius in zip(feet, radii, strict=True)]
         self._add_lines(f"{name}/circles", np.concatenate(circles), np.repeat(course.shades, len(CIRCLE) - 1, axis=0))
         ahead = course.places[course.reached :]
         if len(ahead) > 1:
@@ -124,10 +126,6 @@ class MissionFigure:
         both_ends = np.repeat(colours[:, None], 2, axis=1)
         self._scene.add_line_segments(name, segments.astype(np.float32), both_ends, thickness=0.012)
 
-    def _circle(self, ground: Ground, foot: Array) -> Array:
-        places = foot[:2] + self._radius * CIRCLE
-        return np.array([[x, y, _height(ground, x, y, foot[2]) + LIFT] for x, y in places.tolist()])
-
     def _update_leg(self, ground: Ground, robot_position: Array | None, course: Course) -> None:
         """The line from the robot to the waypoint it goes to next, anew every few centimetres of its way."""
         ahead = course.places[course.reached :]
@@ -142,6 +140,11 @@ class MissionFigure:
         points = _draped(ground, [start, ahead[0]]) if wanted is not None and len(start) == 2 else np.zeros((0, 3))
         self._leg.colour(course.colour)
         self._leg.chain(points)
+
+
+def _circle(ground: Ground, foot: Array, radius: float) -> Array:
+    places = foot[:2] + radius * CIRCLE
+    return np.array([[x, y, _height(ground, x, y, foot[2]) + LIFT] for x, y in places.tolist()])
 
 
 def _draped(ground: Ground, places: Sequence[Place]) -> Array:

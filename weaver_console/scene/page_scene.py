@@ -26,6 +26,7 @@ from weaver_console.scene.motion_figure import MotionFigure
 from weaver_console.scene.robot_figure import RobotFigure
 from weaver_console.scene.terrain_figure import MeshStore, TerrainFigure
 from weaver_shared.bus import free_port
+from weaver_shared.config.navigation import PathFollowerConfig
 from weaver_shared.messages import OdometryEstimate, RobotState, TruthState, Waypoint
 from weaver_shared.robots import RobotDescription
 
@@ -39,7 +40,7 @@ LINES_PERIOD_NS = 120_000_000
 THRIFTY_TERRAIN = 12
 """Updates between new ground where the browser draws without a graphics card: each tile costs it a new shader."""
 
-ACCEPTANCE_RADIUS = 0.15
+FOLLOWER = PathFollowerConfig()
 CAMERA_FROM_ROBOT = np.array([-1.25, -0.85, 0.75])
 LOOK_FROM_ROBOT = np.array([0.35, 0.0, -0.05])
 STILL = 3e-4
@@ -181,7 +182,12 @@ class PageScene:
             figure=figure,
             motion=MotionFigure(scene, "/world/motion", robot) if robot is not None else None,
             terrain=TerrainFigure(scene, "/world/terrain", self._store),
-            mission=MissionFigure(scene, "/world/mission", acceptance_radius=ACCEPTANCE_RADIUS),
+            mission=MissionFigure(
+                scene,
+                "/world/mission",
+                passing_radius=FOLLOWER.acceptance_radius,
+                goal_radius=FOLLOWER.goal_radius,
+            ),
         )
         if robot is not None:
             self._shown.frustum = _add_frustum(scene, robot)

@@ -3,9 +3,6 @@ import type { Waypoint } from "../protocol/messages";
 import { type Point, type View, toScreen } from "./projection";
 import { type Context, type Ink, circle, polyline, strokeWithHalo } from "./strokes";
 
-/** Distance at which the robot turns to the next waypoint, and at which the last one is reached, m (ICRA'17 III-B). */
-const ACCEPTANCE_RADIUS = 0.5;
-const GOAL_RADIUS = 0.1;
 const WAYPOINT_PIXELS = 11;
 
 export function drawTrail(context: Context, view: View, trail: readonly Point[], ink: Ink): void {
@@ -33,12 +30,13 @@ export interface WaypointMark {
   number: number;
   selected: boolean;
   reached: boolean;
-  last: boolean;
+  /** Distance at which it counts as passed or reached, m. */
+  radius: number;
 }
 
 export function drawWaypoint(context: Context, view: View, mark: WaypointMark, ink: Ink): void {
   const { x, y } = toScreen(view, mark.waypoint);
-  circle(context, x, y, (mark.last ? GOAL_RADIUS : ACCEPTANCE_RADIUS) * view.scale);
+  circle(context, x, y, mark.radius * view.scale);
   context.setLineDash([3, 3]);
   strokeWithHalo(context, ink, ink.path, 1);
   context.setLineDash([]);

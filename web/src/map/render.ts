@@ -16,6 +16,8 @@ export interface Scene {
   scale: ColourScale | null;
   waypoints: readonly Waypoint[];
   selected: number | null;
+  /** Distances at which a waypoint counts as passed, and the last one as reached, m. */
+  radii: { passing: number; goal: number };
   state: RobotState | undefined;
   level: Freshness["level"];
   mission: MissionState | undefined;
@@ -44,7 +46,7 @@ export function renderMap(context: CanvasRenderingContext2D, painter: TilePainte
       number: index + 1,
       selected: index === scene.selected,
       reached,
-      last: index === scene.waypoints.length - 1,
+      radius: index === scene.waypoints.length - 1 ? scene.radii.goal : scene.radii.passing,
     };
     drawWaypoint(context, view, mark, ink);
   });

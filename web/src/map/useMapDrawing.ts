@@ -73,6 +73,7 @@ export function useMapDrawing(
         scale,
         waypoints,
         selected,
+        radii: { passing: state.hello?.passing_radius_m ?? 0, goal: state.hello?.goal_radius_m ?? 0 },
         state: robot,
         level,
         mission,

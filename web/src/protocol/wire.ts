@@ -9,6 +9,9 @@ export interface Hello {
   scene: string | null;
   layers: string[];
   layer: string;
+  /** Distance at which the robot turns to the next waypoint, and at which the last one is reached, m. */
+  passing_radius_m: number;
+  goal_radius_m: number;
   schema: number;
 }
 
