@@ -1,15 +1,30 @@
-"""New corners where the picture has too few: FAST in the cells of a grid, the strongest first."""
+"""New corners where the picture has too few: FAST in the cells of a grid, the strongest first.
+
+The segment test and score are those of Rosten and Drummond (ECCV 2006): nine neighbours in a row on a circle of 16
+that are all brighter, or all darker, than the middle by a threshold; the score is the largest such threshold.
+"""
 
 from __future__ import annotations
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.odometry.compiled import compiled
 from weaver_shared.config.odometry import FrontEndConfig
 
 Array = NDArray[np.float64]
 Picture = NDArray[np.uint8]
+
+CIRCLE = np.array(
+    [
+        (0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -2, -3, -3, -3, -2, -1),
+        (-3, -3, -2, -1, 0, 1, 2, 3, 3, 3, 2, 1, 0, -1, -2, -3),
+    ]
+)
+"""(2, 16) px right and down, in order around the middle."""
+
+ARC = 9
+"""Neighbours in a row that make a corner."""
 
 
 class CornerGrid:
@@ -17,10 +32,8 @@ class CornerGrid:
 
     def __init__(self, width: int, height: int, config: FrontEndConfig) -> None:
         self._config = config
-        self._detector = cv2.FastFeatureDetector.create(threshold=config.fast_threshold, nonmaxSuppression=True)
-        columns = np.linspace(config.border, width - config.border, config.columns + 1).astype(int)
-        rows = np.linspace(config.border, height - config.border, config.rows + 1).astype(int)
-        self._columns, self._rows = columns, rows
+        self._columns = np.linspace(config.border, width - config.border, config.columns + 1).astype(np.int64)
+        self._rows = np.linspace(config.border, height - config.border, config.rows + 1).astype(np.int64)
         self._share = -(-config.features // (config.columns * config.rows))
 
     def refill(self, picture: Picture, taken: Array) -> Array:
@@ -31,35 +44,111 @@ class CornerGrid:
             return np.zeros((0, 2))
         column = np.clip(np.searchsorted(self._columns, taken[:, 0], side="right") - 1, 0, config.columns - 1)
         row = np.clip(np.searchsorted(self._rows, taken[:, 1], side="right") - 1, 0, config.rows - 1)
-        filled = np.zeros((config.rows, config.columns), dtype=int)
-        np.add.at(filled, (row, column), 1)
-        added: list[Array] = []
-        for flat in np.argsort(filled, axis=None, kind="stable"):
-            r, c = divmod(int(flat), config.columns)
-            wanted = min(self._share - int(filled[r, c]), missing - len(added))
-            if wanted > 0:
-                added += self._best_of_cell(picture, r, c, wanted, taken, added)
-        return np.array(added) if added else np.zeros((0, 2))
+        filled = np.bincount(row * config.columns + column, minlength=config.rows * config.columns)
+        features = np.empty((config.features, 2))
+        features[: len(taken)] = taken
+        found = _fill_cells(
+            np.ascontiguousarray(picture),
+            self._columns,
+            self._rows,
+            np.argsort(filled, kind="stable"),
+            self._share - filled,
+            features,
+            len(taken),
+            config.fast_threshold,
+            config.spacing,
+        )
+        return features[len(taken) : found].copy()
 
-    def _best_of_cell(
-        self, picture: Picture, row: int, column: int, wanted: int, taken: Array, added: list[Array]
-    ) -> list[Array]:
-        top, bottom = self._rows[row], self._rows[row + 1]
-        left, right = self._columns[column], self._columns[column + 1]
-        # FAST looks 3 px around a pixel, so the cell is cut out with that much around it.
-        corners = self._detector.detect(picture[top - 3 : bottom + 3, left - 3 : right + 3])
-        if not corners:
-            return []
-        strongest = sorted(corners, key=lambda corner: -corner.response)[: 8 * wanted]
-        near = [*taken[(np.abs(taken - ((left + right) / 2, (top + bottom) / 2)) < 120).all(axis=1)], *added]
-        others = np.array(near).reshape(-1, 2)
-        chosen: list[Array] = []
-        for corner in strongest:
-            at = np.array([corner.pt[0] + left - 3, corner.pt[1] + top - 3])
-            if len(others) and ((others - at) ** 2).sum(axis=1).min() < self._config.spacing**2:
-                continue
-            chosen.append(at)
-            others = np.vstack([others, at])
-            if len(chosen) == wanted:
+
+@compiled
+def _fill_cells(
+    picture: Picture,
+    columns: NDArray[np.int64],
+    rows: NDArray[np.int64],
+    order: NDArray[np.int64],
+    wanted: NDArray[np.int64],
+    features: Array,
+    count: int,
+    threshold: int,
+    spacing: float,
+) -> int:
+    """Append each cell's strongest corners to the first `count` rows of `features` until it is full: how many then."""
+    across = len(columns) - 1
+    widest = int(np.max(columns[1:] - columns[:-1]))
+    highest = int(np.max(rows[1:] - rows[:-1]))
+    score = np.empty((highest, widest), dtype=np.int64)
+    ring = np.empty(16, dtype=np.int64)
+    for flat in order:
+        if wanted[flat] <= 0 or count == len(features):
+            continue
+        top, left = rows[flat // across], columns[flat % across]
+        height, width = rows[flat // across + 1] - top, columns[flat % across + 1] - left
+        score_cell(picture, top, left, height, width, threshold, ring, score)
+        for n in range(count):
+            _clear_about(score, height, width, features[n, 0] - left, features[n, 1] - top, spacing)
+        for _ in range(min(wanted[flat], len(features) - count)):
+            best, v, u = 0, 0, 0
+            for i in range(height):
+                for j in range(width):
+                    if score[i, j] > best:
+                        best, v, u = score[i, j], i, j
+            if best == 0:
                 break
-        return chosen
+            features[count, 0], features[count, 1] = left + u, top + v
+            count += 1
+            _clear_about(score, height, width, float(u), float(v), spacing)
+    return count
+
+
+@compiled
+def score_cell(
+    picture: Picture,
+    top: int,
+    left: int,
+    height: int,
+    width: int,
+    threshold: int,
+    ring: NDArray[np.int64],
+    score: NDArray[np.int64],
+) -> None:
+    """FAST score of every pixel of a cell, 0 where there is no corner; `ring` (16,) is scratch."""
+    for v in range(height):
+        for u in range(width):
+            score[v, u] = 0
+            y, x = top + v, left + u
+            middle = np.int64(picture[y, x])
+            # Nine in a row hold one of each two opposite points: most pixels fail here.
+            up, down = abs(picture[y - 3, x] - middle), abs(picture[y + 3, x] - middle)
+            if up <= threshold and down <= threshold:
+                continue
+            right, back = abs(picture[y, x + 3] - middle), abs(picture[y, x - 3] - middle)
+            if right <= threshold and back <= threshold:
+                continue
+            for n in range(16):
+                ring[n] = np.int64(picture[y + CIRCLE[1, n], x + CIRCLE[0, n]]) - middle
+            score[v, u] = _arc_score(ring, threshold)
+
+
+@compiled
+def _arc_score(ring: NDArray[np.int64], threshold: int) -> int:
+    """Largest difference that some arc exceeds or falls below throughout; 0 if none does so by the threshold."""
+    best = threshold
+    for start in range(16):
+        least, most = ring[start], ring[start]
+        for n in range(1, ARC):
+            value = ring[(start + n) & 15]
+            least, most = min(least, value), max(most, value)
+            if least <= best and -most <= best:
+                break
+        best = max(best, least, -most)
+    return best if best > threshold else 0
+
+
+@compiled
+def _clear_about(score: NDArray[np.int64], height: int, width: int, x: float, y: float, spacing: float) -> None:
+    """No corner nearer than `spacing` to (x, y)."""
+    for v in range(max(0, int(y - spacing)), min(height, int(y + spacing) + 2)):
+        for u in range(max(0, int(x - spacing)), min(width, int(x + spacing) + 2)):
+            if (u - x) ** 2 + (v - y) ** 2 < spacing * spacing:
+                score[v, u] = 0

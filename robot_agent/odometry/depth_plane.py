@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.odometry.compiled import compiled
+
 Array = NDArray[np.float64]
 
 LEAST_POINTS = 8
@@ -15,15 +17,30 @@ def fit_inverse_depth(plane: Array, depth: Array) -> Array | None:
     known = np.isfinite(depth)
     if int(known.sum()) < LEAST_POINTS:
         return None
-    rows = np.column_stack([plane[known], np.ones(int(known.sum()))])
-    inverse = 1.0 / depth[known]
-    weight: Array = np.ones(len(inverse))
-    coefficients: Array = np.zeros(3)
-    for _ in range(3):  # a few reweighted rounds, so that steps and feet do not tilt the plane
-        normal = rows.T @ (rows * weight[:, None]) + 1e-6 * np.eye(3)
-        coefficients = np.asarray(np.linalg.solve(normal, rows.T @ (weight * inverse)), dtype=np.float64)
+    return np.asarray(_robust_plane(plane[known], 1.0 / depth[known]))
+
+
+@compiled
+def _robust_plane(plane: Array, inverse: Array) -> Array:
+    """A few reweighted rounds of least squares, so that steps and feet do not tilt the plane."""
+    number = len(inverse)
+    rows = np.ones((number, 3))
+    rows[:, :2] = plane
+    weight = np.ones(number)
+    coefficients = np.zeros(3)
+    for _ in range(3):
+        normal = 1e-6 * np.eye(3)
+        target = np.zeros(3)
+        for n in range(number):
+            for a in range(3):
+                target[a] += weight[n] * rows[n, a] * inverse[n]
+                for b in range(3):
+                    normal[a, b] += weight[n] * rows[n, a] * rows[n, b]
+        coefficients = np.linalg.solve(normal, target).astype(np.float64)
         error = np.abs(rows @ coefficients - inverse)
-        weight = 1.0 / np.maximum(error / max(float(np.median(error)), 1e-6), 1.0)
+        typical = max(float(np.median(error)), 1e-6)
+        for n in range(number):
+            weight[n] = 1.0 / max(error[n] / typical, 1.0)
     return coefficients
 
 

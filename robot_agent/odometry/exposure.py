@@ -17,20 +17,26 @@ def picture_problem(picture: Picture, width: int, height: int, config: FrontEndC
         return "missing"
     if picture.shape != (height, width):
         return f"{picture.shape[1]}x{picture.shape[0]} instead of {width}x{height}"
-    sparse = picture[::4, ::4]
-    if float(sparse.mean()) < config.dark_mean:
+    mean, deviation = _brightness(picture)
+    if mean < config.dark_mean:
         return "black"
-    if float(sparse.std()) < config.flat_deviation:
+    if deviation < config.flat_deviation:
         return "without contrast"
     return ""
 
 
 def matched(picture: Picture, reference: Picture) -> Picture:
     """`picture` with the brightness and contrast of `reference`: real eyes are exposed each on their own."""
-    mine, other = picture[::4, ::4], reference[::4, ::4]
-    gain = float(np.clip(other.std() / max(float(mine.std()), 1e-3), 0.25, 4.0))
-    offset = float(other.mean() - gain * mine.mean())
+    (mean, deviation), (other_mean, other_deviation) = _brightness(picture), _brightness(reference)
+    gain = min(max(other_deviation / max(deviation, 1e-3), 0.25), 4.0)
+    offset = other_mean - gain * mean
     if abs(gain - 1.0) < 0.03 and abs(offset) < 3.0:
         return picture
     line = np.clip(gain * np.arange(256.0) + offset, 0.0, 255.0).astype(np.uint8)
     return np.asarray(cv2.LUT(picture, line), dtype=np.uint8)
+
+
+def _brightness(picture: Picture) -> tuple[float, float]:
+    """Mean and standard deviation of a sample of the grey values."""
+    mean, deviation = cv2.meanStdDev(np.ascontiguousarray(picture[::8, ::8]))
+    return float(mean[0, 0]), float(deviation[0, 0])

@@ -50,6 +50,7 @@ class FrontEnd:
         self._pixel = np.zeros((0, 2))  # in the left picture
         self._depth = np.zeros(0)  # m along the left optical axis, NaN unknown
         self._ground: Array | None = None  # inverse depth over the picture, from the newest matched pair
+        self._predictable = False  # the last picture's features were where they were expected
 
     def step(self, frame: StereoFrame, left_from_previous: Pose) -> Tracks:
         """Follow features into `frame` and find new ones."""
@@ -85,6 +86,7 @@ class FrontEnd:
         self._keep(np.zeros(len(self._identity), dtype=np.bool_))
         self._previous = None
         self._ground = None
+        self._predictable = False
 
     def _keep(self, mask: Mask) -> None:
         self._identity, self._pixel, self._depth = self._identity[mask], self._pixel[mask], self._depth[mask]
@@ -98,7 +100,7 @@ class FrontEnd:
         moved = left_from_previous.transform(np.column_stack([before, np.ones(len(before))]) * depth[:, None])
         guess = project(self._left, moved)
         guess = np.where(np.isfinite(guess), guess, self._pixel)
-        found, tracked, _ = _lucas_kanade(self._previous, picture, self._pixel, guess, self._config)
+        found, tracked, _ = self._search(self._previous, picture, guess, predicted=self._predictable)
         good = tracked & self._inside(self._left, found)
         old, self._pixel, self._depth = self._pixel, found, np.where(good, moved[:, 2], np.nan)
         after = normalise(self._left, self._pixel)
@@ -108,9 +110,17 @@ class FrontEnd:
             pairs = self._random.integers(0, len(rows), (HYPOTHESES, 2))
             gate = self._config.epipolar_gate / self._left.fx
             good[rows] = consistent(turned[rows], unit_rays(after)[rows], pairs, gate)
-        flow = float(np.median(np.linalg.norm(found - old, axis=1)[good])) if good.any() else float("nan")
+        self._predictable = 2 * int(good.sum()) > len(good) and _median_distance(found, guess, good) < (
+            self._config.surprise
+        )
+        flow = _median_distance(found, old, good)
         self._keep(good)
         return flow
+
+    def _search(self, first: Picture, second: Picture, guess: Array, *, predicted: bool) -> tuple[Array, Mask, Array]:
+        config = self._config
+        levels = config.predicted_levels if predicted else config.levels
+        return _lucas_kanade(first, second, self._pixel, guess, config.window, levels)
 
     def _refill(self, picture: Picture) -> None:
         if len(self._pixel) > 0.92 * self._config.features:
@@ -146,7 +156,7 @@ class FrontEnd:
         rays = np.column_stack([plane, np.ones(len(plane))])
         start = project(self._right, self._right_from_left.transform(rays / guess[:, None]))
         start = np.where(np.isfinite(start), start, self._pixel)
-        found, tracked, error = _lucas_kanade(left, right, self._pixel, start, self._config)
+        found, tracked, error = self._search(left, right, start, predicted=self._ground is not None)
         where = normalise(self._right, found)
         depth, off = _stereo_depth(self._right_from_left, rays, where)
         good = tracked & self._inside(self._right, found) & (off * self._right.fx < self._config.epipolar_gate)
@@ -170,7 +180,7 @@ class FrontEnd:
 
 
 def _lucas_kanade(
-    first: Picture, second: Picture, pixel: Array, guess: Array, config: FrontEndConfig
+    first: Picture, second: Picture, pixel: Array, guess: Array, window: int, levels: int
 ) -> tuple[Array, Mask, Array]:
     """Where `pixel` (n, 2) of the first picture went, which were found, and their mean grey error."""
     found, status, error = cv2.calcOpticalFlowPyrLK(
@@ -178,8 +188,8 @@ def _lucas_kanade(
         second,
         pixel.astype(np.float32).reshape(-1, 1, 2),
         guess.astype(np.float32).reshape(-1, 1, 2),
-        winSize=(config.window, config.window),
-        maxLevel=config.levels,
+        winSize=(window, window),
+        maxLevel=levels,
         criteria=_STOP,
         flags=cv2.OPTFLOW_USE_INITIAL_FLOW,
         minEigThreshold=1e-3,
@@ -190,6 +200,11 @@ def _lucas_kanade(
     where[tracked] = found.reshape(-1, 2)[tracked]
     grey_error[tracked] = error.ravel()[tracked]
     return where, tracked, grey_error
+
+
+def _median_distance(first: Array, second: Array, chosen: Mask) -> float:
+    """Of the `chosen` points (n, 2), in px; NaN when there are none."""
+    return float(np.median(np.linalg.norm((first - second)[chosen], axis=1))) if chosen.any() else float("nan")
 
 
 def _stereo_depth(right_from_left: Pose, rays: Array, where: Array) -> tuple[Array, Array]:

@@ -37,10 +37,7 @@ class Landmarks(NamedTuple):
 
     def remove_frame(self, slot: int) -> None:
         """Close the gap of a frame and free the rows nobody sees any more."""
-        for array in (self.observation, self.seen):
-            array[:, slot:-1] = array[:, slot + 1 :].copy()
-        self.seen[:, -1] = 0
-        self.forget(np.asarray(self.seen.max(axis=1) == 0))
+        close_gap(self, slot)
 
     def forget(self, rows: NDArray[np.bool_]) -> None:
         self.identity[rows] = -1
@@ -51,19 +48,36 @@ class Landmarks(NamedTuple):
         self, slot: int, identity: NDArray[np.int64], observation: Array, seen: NDArray[np.uint8]
     ) -> NDArray[np.int64]:
         """Enter a frame's tracks; the row of each, -1 where the table is full."""
-        known = {int(name): row for row, name in enumerate(self.identity) if name >= 0}
-        free = iter(np.flatnonzero(self.identity < 0))
-        rows = np.empty(len(identity), dtype=np.int64)
-        for n, name in enumerate(identity):
-            row = known.get(int(name), -1)
-            if row < 0:
-                row = int(next(free, -1))
-            rows[n] = row
-            if row >= 0:
-                self.identity[row] = name
-                self.observation[row, slot] = observation[n]
-                self.seen[row, slot] = seen[n]
+        known = {name: row for row, name in enumerate(self.identity.tolist()) if name >= 0}
+        free = iter(np.flatnonzero(self.identity < 0).tolist())
+        rows = np.array([known[n] if n in known else next(free, -1) for n in identity.tolist()], dtype=np.int64)
+        entered = rows >= 0
+        at = rows[entered]
+        self.identity[at] = identity[entered]
+        self.observation[at, slot] = observation[entered]
+        self.seen[at, slot] = seen[entered]
         return rows
+
+
+@compiled
+def close_gap(landmarks: Landmarks, slot: int) -> None:
+    """Move the frames after `slot` one down; a row that nobody sees any more is free."""
+    slots = landmarks.seen.shape[1]
+    for row in range(landmarks.identity.shape[0]):
+        if landmarks.identity[row] < 0:
+            continue
+        seen_at_all = False
+        for k in range(slots):
+            if k >= slot:
+                landmarks.seen[row, k] = landmarks.seen[row, k + 1] if k + 1 < slots else 0
+            if k >= slot and landmarks.seen[row, k]:
+                for e in range(2):
+                    for a in range(2):
+                        landmarks.observation[row, k, e, a] = landmarks.observation[row, k + 1, e, a]
+            seen_at_all |= landmarks.seen[row, k] > 0
+        if not seen_at_all:
+            landmarks.identity[row] = -1
+            landmarks.solved[row] = False
 
 
 class Eyes(NamedTuple):

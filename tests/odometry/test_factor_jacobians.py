@@ -71,8 +71,9 @@ def test_reprojection_factor(eyes: Eyes, eye: int) -> None:
         _, _, seen_from = exposure_views(moved, eyes, 2)
         return np.array(whitened_error(seen_from, landmarks, 0, 1, eye, 100.0))
 
-    by_pose, by_point = np.empty((2, 6)), np.empty((2, 3))
-    observation_rows(rotation, position, eyes, views, landmarks.point[0], 1, eye, 100.0, by_pose, by_point)
+    rows = np.zeros((4, 12))
+    observation_rows(rotation, position, eyes, views, landmarks.point, 0, 1, eye, rows)
+    by_pose, by_point = 100.0 * rows[2 * eye : 2 * eye + 2, :6], 100.0 * rows[2 * eye : 2 * eye + 2, 6:9]
     numeric = _numeric(frames, error)
     assert by_pose == pytest.approx(numeric[:, STATE : STATE + 6], rel=1e-2, abs=0.1)  # linearised without the offset
     motion = np.concatenate([frames.rate[1], frames.velocity[1]])

@@ -21,8 +21,10 @@ class FrontEndConfig(_Model):
     spacing: Positive = 18.0  # px between two features
     fast_threshold: Count = 12  # grey values
     border: Count = 12  # px at the picture's edge without features
-    window: Count = 15  # px, side of the tracked square
-    levels: Count = 3  # of the pyramid above the picture itself
+    window: Count = 13  # px, side of the tracked square
+    levels: Count = 3  # of the pyramid above the picture itself, while nobody knows where to look
+    predicted_levels: Count = 1  # once predictions have proved right
+    surprise: Positive = 3.0  # px, median error of the prediction that makes it wrong
     epipolar_gate: Positive = 1.5  # px
     nearest: Positive = 0.15  # m, stereo matches closer than this are wrong
     dark_mean: Positive = 8.0  # a picture whose mean is below is black
@@ -36,7 +38,7 @@ class WindowConfig(_Model):
     recent: Annotated[int, Field(ge=2, le=4)] = 3
     keyframe_overlap: Annotated[float, Field(gt=0.0, le=1.0)] = 0.85  # a new keyframe sees less of the last one
     keyframe_interval: Positive = 5.0  # s, the longest stretch of inertia between keyframes
-    iterations: Count = 3
+    iterations: Count = 2
     pixel_sigma: Positive = 0.5
     huber: Positive = 1.0  # sigma
     gate: Positive = 4.5  # sigma, beyond it an observation is wrong
