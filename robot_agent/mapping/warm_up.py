@@ -7,11 +7,12 @@ import numpy as np
 from robot_agent.mapping.elevation_fusion import FusionRules, fuse
 from robot_agent.mapping.rolling_grid import RollingGrid
 from robot_agent.mapping.sliding_features import cell_features
+from robot_agent.mapping.tiles import quantised_tile, worth_sending
 from weaver_shared.config.mapping import MappingConfig
 
 
 def warm_up() -> None:
-    """Merge a flat patch into an empty grid once and characterise it."""
+    """Merge a flat patch into an empty grid once and characterise it, pack a tile of it."""
     config = MappingConfig()
     grid = RollingGrid(config)
     patch = np.zeros((32, 32), dtype=np.float32)
@@ -20,3 +21,5 @@ def warm_up() -> None:
     layers = (grid.elevation, grid.variance, grid.rejected, grid.seen_ns)
     fuse(patch, variance, 0, 0, grid.row0, grid.column0, *layers, 0, rules)
     cell_features(patch, variance, config)
+    tile = quantised_tile(grid, 0, 0, 0)
+    worth_sending(tile, tile)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from weaver_shared.config.perception import PlaneMode
@@ -17,6 +18,8 @@ SETTLED = 1e-6
 TRIPLES = 64  # with half the points on the plane, one of 64 triples misses it with a chance of 0.0002
 JUDGES = 400
 SMALLEST_TRIANGLE = 0.05  # of the patch's extent; smaller ones say little about slopes
+REGULAR = 1e-12
+"""Smallest determinant of a normal matrix over the product of its diagonal."""
 NORMAL_SPREAD = 1.4826
 """Standard deviation of a normal law over its median absolute deviation."""
 
@@ -57,7 +60,7 @@ def fit_plane(x: Array, y: Array, z: Array, mode: PlaneMode, noise: float = 0.00
         raise ValueError(f"a plane needs three points, found {len(z)}")
     centre = np.array([x.mean(), y.mean(), z.mean()])
     design = np.column_stack([x - centre[0], y - centre[1], np.ones(len(x))])
-    heights = z - centre[2]
+    heights = np.asarray(z - centre[2], dtype=np.float64)
     weights: Floats = np.ones(len(z))
     solution = _weighted_least_squares(design, heights, weights)
     if mode == "robust":
@@ -75,17 +78,27 @@ def fit_plane(x: Array, y: Array, z: Array, mode: PlaneMode, noise: float = 0.00
     )
 
 
-def _reweighted(design: Array, heights: Array, start: Array, noise: float) -> tuple[Array, Floats]:
+@njit(cache=True)
+def _reweighted(design: Array, heights: Array, start: Array, noise: float) -> tuple[Array, Array]:
     """Solution and weights of Geman-McClure iterations from `start`."""
-    solution = start
-    weights: Floats = np.ones(len(heights))
+    solution = start.copy()
+    weights = np.ones(len(heights))
     for _ in range(ITERATIONS):
         residual = heights - design @ solution
-        spread = NORMAL_SPREAD * float(np.median(np.abs(residual - np.median(residual))))
-        scale = 3.0 * max(spread, noise)
-        weights = (scale**2 / (scale**2 + residual**2)) ** 2
-        update = _weighted_least_squares(design, heights, weights)
-        settled = float(np.abs(update - solution).max()) < SETTLED
+        spread = NORMAL_SPREAD * np.median(np.abs(residual - np.median(residual)))
+        scale_squared = (3.0 * max(spread, noise)) ** 2
+        normal_matrix, target = np.zeros((3, 3)), np.zeros(3)
+        for n in range(len(heights)):
+            weights[n] = (scale_squared / (scale_squared + residual[n] ** 2)) ** 2
+            for i in range(3):
+                weighted = weights[n] * design[n, i]
+                target[i] += weighted * heights[n]
+                for j in range(3):
+                    normal_matrix[i, j] += weighted * design[n, j]
+        if not np.linalg.det(normal_matrix) > REGULAR * np.prod(np.diag(normal_matrix)):
+            break  # what is left of the points lies on one line: the plane stays as it was
+        update = np.linalg.solve(normal_matrix, target).astype(np.float64)
+        settled = np.abs(update - solution).max() < SETTLED
         solution = update
         if settled:
             break

@@ -16,7 +16,7 @@ from weaver_shared.config.perception import HealthConfig
 Picture = NDArray[np.uint8]
 
 WINDOW = 4  # px to each side of a sample
-STRIDE = 8  # px between samples
+STRIDE = 12  # px between samples
 FEWEST_WINDOWS = 20
 WORTH_SAYING = 0.8  # a score below this comes with its reason
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from robot_agent.perception.ground_plane import fit_plane
 from robot_agent.perception.terrain import TerrainPerception
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.messages import OdometryEstimate, OdometryQuality, StereoFrame
@@ -28,4 +29,6 @@ def warm_up() -> None:
         reason="",
         tracked_features=100,
     )
+    x, y = np.random.default_rng(0).uniform(-1.0, 1.0, (2, 50))
+    fit_plane(x, y, 0.1 * x, "robust")  # the noise above may not have shown any ground
     TerrainPerception(StereoCalibration.of_robot(robot)).step(frame, odometry)
