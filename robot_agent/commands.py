@@ -85,6 +85,7 @@ class CommandDesk:
             CommandName.SET_OVERRIDE: self._set_override,
             CommandName.CLEAR_OVERRIDE: self._clear_override,
             CommandName.SET_GAIT: self._set_gait,
+            CommandName.SET_START_UP: self._moving(self._motion.set_start_up),
             CommandName.SET_POSE: self._moving(self._motion.set_pose),
             CommandName.CLEAR_POSE: self._moving(self._motion.clear_pose),
             CommandName.SET_POSING: self._moving(self._motion.set_posing),
@@ -143,6 +144,8 @@ class CommandDesk:
                 mission_serial=self._mission.serial,
                 teleop_velocity=self._teleop_velocity(now),
                 posing=self._motion.posing,
+                in_sequence=self._motion.in_sequence,
+                pack=self._motion.pack,
                 find_way=self._mission.find_way,
             )
 
@@ -197,7 +200,7 @@ class CommandDesk:
             mode = self._situation.mode
             names = {CommandName.STOP, CommandName.TAKE_CONTROL, CommandName.RELEASE_CONTROL, CommandName.SET_GAIT}
             names |= {CommandName.SET_MISSION, CommandName.SET_OVERRIDE, CommandName.CLEAR_OVERRIDE}
-            names |= {CommandName.SET_POSE, CommandName.CLEAR_POSE, CommandName.SET_POSING}
+            names |= {CommandName.SET_START_UP, CommandName.SET_POSE, CommandName.CLEAR_POSE, CommandName.SET_POSING}
             if self._stop_level:
                 if self._situation.settled:
                     names.add(CommandName.RELEASE_STOP)
@@ -248,7 +251,11 @@ class CommandDesk:
         self._stand = True
         return self._accept()
 
-    def _sit_down(self, _: Command) -> Answer:
+    def _sit_down(self, command: Command) -> Answer:
+        try:
+            self._motion.choose_sitting(command)
+        except WeaverError as error:
+            return self._refuse(str(error))
         self._mission.pause()
         self._stand = False
         return self._accept()

@@ -12,6 +12,7 @@ from weaver_shared.errors import InputError
 from weaver_shared.messages import Command
 from weaver_shared.robots import RobotDescription
 
+START_UPS = ("direct", "sequence")
 SWITCHES = ("automatic", "levelling")
 
 
@@ -22,6 +23,8 @@ class MotionDesk:
         self._robot = robot
         self._config = config or LocomotionConfig()
         self.posing: PosingOrder = NO_POSING
+        self.in_sequence = False
+        self.pack = False
 
     def set_pose(self, command: Command) -> float:
         """One axis of the body's pose: x, y, z in m, roll, pitch, yaw in rad; clamped to what may be asked."""
@@ -54,6 +57,22 @@ class MotionDesk:
         else:
             self.posing = replace(self.posing, levelling=on)
         return command.value
+
+    def set_start_up(self, command: Command) -> float:
+        """How to stand up and sit down from now on."""
+        if command.name not in START_UPS:
+            raise InputError(f"start-up {command.name!r:.40} is unknown; known are {', '.join(START_UPS)}")
+        self.in_sequence = command.name == "sequence"
+        return 0.0
+
+    def choose_sitting(self, command: Command) -> float:
+        """Whether to fold the legs away after sitting down."""
+        if command.name not in ("", "pack"):
+            raise InputError(f"a robot sits with the name pack or none, not {command.name!r:.40}")
+        if command.name and self._robot.packed_joints is None:
+            raise InputError(f"robot {self._robot.name} can not be packed: its description has no packed joint angles")
+        self.pack = command.name == "pack"
+        return 0.0
 
     def _take(self, manual: Iterable[float]) -> None:
         x, y, z, roll, pitch, yaw = map(float, manual)

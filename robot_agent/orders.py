@@ -23,6 +23,8 @@ class Orders:
     mission_serial: int  # rises when the follower must begin anew
     teleop_velocity: NDArray[np.float64] | None  # (3,) fractions -1..1 of the limits; None: nobody steers
     posing: PosingOrder = NO_POSING
+    in_sequence: bool = False  # stand up and sit down with legs in alternating groups
+    pack: bool = False  # fold the legs away when sitting
     find_way: bool = False  # the waypoints are goals to which the robot finds its own way
 
 

@@ -26,6 +26,8 @@ class WalkInput:
     foot_contact: NDArray[np.bool_]  # (legs,)
     gravity_in_body: Array  # (3,) unit vector, downwards
     posing: PosingOrder = NO_POSING
+    in_sequence: bool = False  # stand up and sit down with legs in alternating groups; False: all at once
+    pack: bool = False  # fold the legs away when sitting
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

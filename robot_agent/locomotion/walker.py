@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.kinematics import LegModel
+from robot_agent.locomotion.folding import Folding
 from robot_agent.locomotion.legs_tick import (
     believe,
     foot_tick,
@@ -31,6 +32,10 @@ from weaver_shared.robots.gaits import Gait
 
 Array = NDArray[np.float64]
 
+MARCH = 2e-4
+"""m/s: to step in place is to walk at hardly any speed."""
+LONGEST_MARCH = 4.0
+"""Strides."""
 LOADING = 0.15
 """Fraction of the way up, and of the way down, in which the feet take over the weight from the belly."""
 
@@ -52,6 +57,7 @@ class Walker:
         self._measured_feet = state.cut("senses", "origins")[:, -1]  # m in body
         self._force = state.cut("senses", "force")
         self._in_air = state.cut("feet", "in_air").view(np.bool_)
+        self._places, self._stances = state.cut("feet", "place"), state.cut("feet", "stance")
         self._phase = state.cut("gait", "leg_phase")
         self._walked = state.cut("gait", "velocity")
         self._plane = state.cut("body", "plane")
@@ -66,7 +72,9 @@ class Walker:
         self._up = state.cut("senses", "up")
         self._stability = StabilityWatch(config.stability, dt)
         self._posture = "sitting"
-        self._joint_glide: Glide | None = None
+        self._folding: Folding | None = None
+        self._packed = robot.packed_joints
+        self._marched = 0.0  # strides stepped in place since the last order to stand or sit
         self._foot_glide: Glide | None = None
         self._choose_gait(robot.gaits[0])
         self._phase[:] = state.cut("orders", "offset")
@@ -78,7 +86,7 @@ class Walker:
         angles = np.where(np.isfinite(angles), angles, self._angles)
         np.clip(angles, self._model.limits[:, 0], self._model.limits[:, 1], out=self._angles)
         self._posture = "sitting"
-        self._joint_glide = self._foot_glide = None
+        self._folding = self._foot_glide = None
         self._poser.clear()
         self._in_air[:], self._walked[:] = False, 0.0
         self._state.record["orders"]["posing_rotation"] = np.eye(3)
@@ -103,7 +111,7 @@ class Walker:
         reasons += self._judge_stability(upright)
         if not sensed.stand:
             self._velocity[:] = 0.0
-        self._act(sensed.stand, sensed.posing)
+        self._act(sensed)
         return self._answer(reasons + self._poser.reasons)
 
     def _take(self, sensed: WalkInput) -> tuple[str, ...]:
@@ -151,19 +159,30 @@ class Walker:
         self._velocity *= watch.factor
         return watch.reasons
 
-    def _act(self, wants_to_stand: bool, posing: PosingOrder) -> None:
+    def _act(self, sensed: WalkInput) -> None:
         """Set this tick's servo targets according to the posture."""
         if self._posture == "sitting":
             self._load[:] = 0.0
             joint_tick(self._memory, self._angles.copy(), False)
-            if wants_to_stand:
-                self._begin_rising()
+            if sensed.stand:
+                self._begin_rising(sensed.in_sequence)
         elif self._posture in ("rising", "lowering"):
-            self._glide(wants_to_stand)
+            self._glide(sensed)
         else:
-            self._walk(posing if wants_to_stand else NO_POSING)
-            if not wants_to_stand and self._posture == "standing" and self._poser.idle:
+            marching = sensed.in_sequence and not sensed.stand and self._must_march()
+            if marching:
+                self._velocity[:] = (MARCH, 0.0, 0.0)
+                self._marched += self._dt * float(self._state.record["gait"]["frequency"])
+            self._walk(sensed.posing if sensed.stand else NO_POSING)
+            if sensed.stand:
+                self._marched = 0.0
+            elif self._posture == "standing" and self._poser.idle and not marching:
                 self._begin_lowering()
+
+    def _must_march(self) -> bool:
+        """Whether a foot stands too far from where it belongs to be lowered upon."""
+        away = np.hypot(*(self._places - self._stances)[:, :2].T)
+        return bool(away.max() > self._config.march_reach) and self._marched < LONGEST_MARCH
 
     def _walk(self, posing: PosingOrder) -> None:
         if self._poser.idle and posing.idle:
@@ -189,33 +208,51 @@ class Walker:
         )
         orders["posing_rotation"], orders["posing_position"] = pose.rotation, pose.position
 
-    def _begin_rising(self) -> None:
-        """First fold the legs, feet under their stance, then push up."""
+    def _begin_rising(self, in_sequence: bool) -> None:
+        """First bring the feet under their stance, over the air where the legs are folded away, then push up."""
         stance = self._robot.stance_in_body
         feet = stance.copy()
         feet[:, 2] = float(np.clip(np.median(self._measured_feet[:, 2]), stance[0, 2], self._sitting_height))
         start = self._angles.copy()
-        solve_feet(self._memory, feet)
-        self._joint_glide = Glide(start, self._angles, self._config.soft_start_speed)
+        postures = [self._angles_at(feet)]
+        if self._measured_feet[:, 2].min() > self._sitting_height + 0.5 * self._config.folding_lift:
+            postures.insert(0, self._angles_at(self._lifted_feet()))
+        self._folding = Folding(start, postures, self._config.soft_start_speed, in_groups=in_sequence)
         self._angles[:] = start
         self._foot_glide = Glide(feet, stance, self._config.rise_speed)
         stand(self._memory, feet, 0.0)
         self._posture = "rising"
 
+    def _angles_at(self, feet: Array) -> Array:
+        """Joint angles (legs, n) for feet (legs, 3) in body."""
+        solve_feet(self._memory, feet)
+        return self._angles.copy()
+
+    def _lifted_feet(self) -> Array:
+        feet = self._robot.stance_in_body.copy()
+        feet[:, 2] = self._sitting_height + self._config.folding_lift
+        return feet
+
     def _begin_lowering(self) -> None:
-        self._joint_glide = None
+        self._folding = None
         goal = self._feet.copy()
         goal[:, 2] = self._sitting_height
         self._foot_glide = Glide(self._feet, goal, self._config.rise_speed)
         self._posture = "lowering"
 
-    def _glide(self, wants_to_stand: bool) -> None:
-        if self._joint_glide is not None and not self._joint_glide.done:
-            self._load[:] = 0.0
-            joint_tick(self._memory, self._joint_glide.step(self._dt), True)
+    def _begin_packing(self, packed: Array, in_sequence: bool) -> None:
+        start = self._angles.copy()
+        postures = [self._angles_at(self._lifted_feet()), packed]
+        self._folding = Folding(start, postures, self._config.soft_start_speed, in_groups=in_sequence)
+        self._angles[:] = start
+        self._foot_glide = None
+
+    def _glide(self, sensed: WalkInput) -> None:
+        if self._folding is not None:
+            self._fold()
             return
-        if wants_to_stand != (self._posture == "rising"):
-            self._turn_back(wants_to_stand)
+        if sensed.stand != (self._posture == "rising"):
+            self._turn_back(sensed.stand)
         glide = self._foot_glide
         assert glide is not None
         self._feet[:] = glide.step(self._dt)
@@ -223,21 +260,33 @@ class Walker:
         self._load[:] = carried * float(self._state.record["model"]["weight"]) / self._load.size
         foot_tick(self._memory)
         if glide.done:
-            self._arrive()
+            self._arrive(sensed)
+
+    def _fold(self) -> None:
+        """Move unloaded legs; when they have arrived the feet push up, or the robot sits packed."""
+        assert self._folding is not None
+        self._load[:] = 0.0
+        joint_tick(self._memory, self._folding.step(self._dt), True)
+        if self._folding.done:
+            self._folding = None
+            if self._foot_glide is None:
+                self._posture = "sitting"
 
     def _turn_back(self, wants_to_stand: bool) -> None:
         """Stand asked while sitting down, or the other way round: go back from here."""
         if wants_to_stand:
-            self._joint_glide = None
+            self._folding = None
             self._foot_glide = Glide(self._feet, self._robot.stance_in_body, self._config.rise_speed)
             self._posture = "rising"
         else:
             self._begin_lowering()
 
-    def _arrive(self) -> None:
+    def _arrive(self, sensed: WalkInput) -> None:
         if self._posture == "rising":
             stand(self._memory, self._feet.copy(), 1.0)
             self._posture = "standing"
+        elif sensed.pack and self._packed is not None:
+            self._begin_packing(self._packed, sensed.in_sequence)
         else:
             self._posture = "sitting"
 

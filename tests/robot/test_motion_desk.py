@@ -71,3 +71,15 @@ def test_automatic_posing_and_levelling_are_switched(ada: Operator) -> None:
     assert ada.desk.orders().posing.levelling
     assert ada.says(CommandName.SET_POSING, name="levelling", value=0.0).accepted
     assert ada.desk.orders().posing.idle
+
+
+def test_start_up_and_packing_are_chosen(ada: Operator) -> None:
+    assert not ada.desk.orders().in_sequence
+    assert ada.says(CommandName.SET_START_UP, name="sequence").accepted
+    assert ada.desk.orders().in_sequence
+    assert "known are direct, sequence" in ada.says(CommandName.SET_START_UP, name="jump").reason
+    assert ada.says(CommandName.SIT, name="pack").accepted
+    assert ada.desk.orders().pack
+    assert "pack or none" in ada.says(CommandName.SIT, name="lie").reason
+    assert ada.says(CommandName.SIT).accepted
+    assert not ada.desk.orders().pack

@@ -140,6 +140,8 @@ class LocomotionConfig(BaseModel):
     stiffness_rate: Positive = 2000.0  # N/m/s
     rise_speed: Positive = 0.06  # m/s, mean, while standing up or sitting down
     soft_start_speed: Positive = 0.6  # rad/s, mean, towards the posture before standing up
+    folding_lift: Positive = 0.05  # m, feet off the ground before the legs are folded away, and after
+    march_reach: Positive = 0.015  # m from its stance beyond which a foot steps back in a sequence
     sitting_lift: Positive = 0.004  # m, feet higher than the ground when sitting, so that the belly takes the weight
     speed_fraction: Fraction = 0.9  # of the servos' no-load speed
     feel_ground: bool = True  # False: feet touch down where and when planned; for trajectories without physics

@@ -11,7 +11,7 @@ class CommandName(StrEnum):
     RELEASE_CONTROL = "release_control"
     RETAIN_CONTROL = "retain_control"  # 2 Hz keep-alive of the lease, the operator's heartbeat
     STAND = "stand"
-    SIT = "sit"
+    SIT = "sit"  # name "pack": fold the legs away as well
     STOP = "stop"  # emergency stop; needs no lease; latches
     RELEASE_STOP = "release_stop"
     SET_MISSION = "set_mission"  # replaces the waypoints; does not start; name "auto": find the way
@@ -21,6 +21,7 @@ class CommandName(StrEnum):
     SET_OVERRIDE = "set_override"  # name, value, seconds
     CLEAR_OVERRIDE = "clear_override"  # name
     SET_GAIT = "set_gait"  # name
+    SET_START_UP = "set_start_up"  # name: direct, sequence; how to stand up and sit down
     SET_POSE = "set_pose"  # name: x, y, z (m), roll, pitch, yaw (rad); value
     CLEAR_POSE = "clear_pose"  # name of one axis, or none for all
     SET_POSING = "set_posing"  # name: automatic, levelling; value 1 or 0

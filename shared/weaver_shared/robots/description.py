@@ -157,6 +157,12 @@ class RobotDescription(Part):
         sitting = [s if j.sitting is None else j.sitting for j, s in zip(self.joints, standing, strict=True)]
         return np.tile(sitting, (self.leg_count, 1))
 
+    @cached_property
+    def packed_joints(self) -> NDArray[np.float64] | None:
+        """Joint angles with all legs folded away, (legs, joints) in rad; None for a robot that is not packed."""
+        packed = [joint.packed for joint in self.joints if joint.packed is not None]
+        return np.tile(packed, (self.leg_count, 1)) if len(packed) == len(self.joints) else None
+
     @property
     def belly(self) -> float:
         """Height of the trunk's underside in body (m)."""

@@ -48,7 +48,8 @@ class Joint(Part):
     """One classical Denavit-Hartenberg row (m, rad) with its limits (rad), servo and link mass (kg).
 
     Legs with more joints than they need, or knees that bend either way, can reach a place in many postures:
-    `standing` and `sitting` (rad) are where the search for a posture begins, the middle of the limits if not given.
+    `standing` and `sitting` (rad) are where the search for a posture begins, the middle of the limits if not given;
+    `packed` (rad) is the angle in which the leg is folded away for carrying the robot about.
     """
 
     name: str
@@ -62,12 +63,13 @@ class Joint(Part):
     mass: Positive
     standing: float | None = None
     sitting: float | None = None
+    packed: float | None = None
 
     @model_validator(mode="after")
     def _ordered(self) -> Joint:
         if self.lower >= self.upper:
             raise ValueError(f"joint {self.name}: lower limit {self.lower} rad is not below upper {self.upper} rad")
-        for key, angle in (("standing", self.standing), ("sitting", self.sitting)):
+        for key, angle in (("standing", self.standing), ("sitting", self.sitting), ("packed", self.packed)):
             if angle is not None and not self.lower <= angle <= self.upper:
                 raise ValueError(
                     f"joint {self.name}: {key} angle {angle} rad is outside its limits {self.lower} to {self.upper} rad"
