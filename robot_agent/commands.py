@@ -16,6 +16,7 @@ import numpy as np
 
 from robot_agent.adaptation import ParameterOverrides
 from robot_agent.authority import Authority
+from robot_agent.leg_desk import LegDesk
 from robot_agent.mission import Mission
 from robot_agent.motion_desk import MotionDesk
 from robot_agent.orders import Orders
@@ -43,6 +44,7 @@ class Situation:
     mode: str
     settled: bool  # seated or without torque
     stand_blockers: tuple[str, ...]  # what keeps the robot from standing up
+    lift_margins: tuple[float, ...] = ()  # m of stability without each leg, while the robot stands still
 
 
 class CommandDesk:
@@ -62,6 +64,7 @@ class CommandDesk:
         self._authority = Authority()
         self._mission = Mission(self._limits)
         self._motion = MotionDesk(robot)
+        self._legs = LegDesk(robot, robot.locomotion)
         self._situation = Situation(
             stamp_ns=0, robot_xy=(0.0, 0.0), mode="OFF", settled=True, stand_blockers=("starting",)
         )
@@ -88,6 +91,10 @@ class CommandDesk:
             CommandName.SET_START_UP: self._moving(self._motion.set_start_up),
             CommandName.SET_POSE: self._moving(self._motion.set_pose),
             CommandName.CLEAR_POSE: self._moving(self._motion.clear_pose),
+            CommandName.LIFT_LEG: self._moving(self._legs.lift),
+            CommandName.LOWER_LEG: self._moving(self._legs.lower),
+            CommandName.MOVE_TIP: self._moving(self._legs.move_tip),
+            CommandName.MOVE_JOINT: self._moving(self._legs.move_joint),
             CommandName.SET_POSING: self._moving(self._motion.set_posing),
         }
 
@@ -126,6 +133,7 @@ class CommandDesk:
     def observe(self, situation: Situation) -> None:
         with self._lock:
             self._situation = situation
+            self._legs.lift_margins = situation.lift_margins
 
     def orders(self) -> Orders:
         with self._lock:
@@ -144,6 +152,7 @@ class CommandDesk:
                 mission_serial=self._mission.serial,
                 teleop_velocity=self._teleop_velocity(now),
                 posing=self._motion.posing,
+                legs=self._legs.orders,
                 in_sequence=self._motion.in_sequence,
                 pack=self._motion.pack,
                 find_way=self._mission.find_way,
@@ -183,6 +192,7 @@ class CommandDesk:
         """Safety makes the robot sit: standing up again needs a new command."""
         with self._lock:
             self._stand = False
+            self._legs.clear()
             self._mission.pause()
 
     def lease(self) -> LeaseState:
@@ -208,6 +218,10 @@ class CommandDesk:
                 names.add(CommandName.STAND)
             if mode in ("STAND", "WALK", "HOLD"):
                 names.add(CommandName.SIT)
+            if self._situation.lift_margins:
+                names.add(CommandName.LIFT_LEG)
+            if self._legs.orders:
+                names |= {CommandName.LOWER_LEG, CommandName.MOVE_TIP, CommandName.MOVE_JOINT}
             if self._mission.phase in ("ready", "paused") and mode in ("STAND", "WALK"):
                 names.add(CommandName.START_MISSION)
             if self._mission.phase == "active":
@@ -232,6 +246,7 @@ class CommandDesk:
         self._stop_level = "cut" if cut else "settle"
         self._stand = False
         self._teleop = None
+        self._legs.clear()
         self._mission.pause()
         return self._accept()
 
@@ -257,6 +272,7 @@ class CommandDesk:
         except WeaverError as error:
             return self._refuse(str(error))
         self._mission.pause()
+        self._legs.clear()
         self._stand = False
         return self._accept()
 
@@ -269,6 +285,8 @@ class CommandDesk:
             return self._refuse("the robot is stopped; release the stop first")
         if self._situation.mode not in ("STAND", "WALK", "HOLD"):
             return self._refuse(f"the robot must stand before it walks; it is in {self._situation.mode}")
+        if self._legs.orders:
+            return self._refuse("legs are lifted; lower them before walking")
         refusal = self._mission.start()
         return self._refuse(refusal) if refusal else self._accept()
 

@@ -123,6 +123,7 @@ class WalkLoop:
                 mode=tick.permission.mode,
                 settled=tick.permission.settled,
                 stand_blockers=tick.verdict.reasons if tick.permission.mode in ("OFF", "READY", "FAULT") else (),
+                lift_margins=tick.walk.lift_margins,
             )
         )
         self._telemetry.publish(tick, sensed, self.desk)

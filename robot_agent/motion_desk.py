@@ -21,7 +21,7 @@ class MotionDesk:
 
     def __init__(self, robot: RobotDescription, config: LocomotionConfig | None = None) -> None:
         self._robot = robot
-        self._config = config or LocomotionConfig()
+        self._config = config or robot.locomotion
         self.posing: PosingOrder = NO_POSING
         self.in_sequence = False
         self.pack = False

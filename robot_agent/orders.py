@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.locomotion.leg_order import LegOrder
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from weaver_shared.messages import Waypoint
 
@@ -23,6 +24,7 @@ class Orders:
     mission_serial: int  # rises when the follower must begin anew
     teleop_velocity: NDArray[np.float64] | None  # (3,) fractions -1..1 of the limits; None: nobody steers
     posing: PosingOrder = NO_POSING
+    legs: tuple[LegOrder, ...] = ()  # in the operator's hands
     in_sequence: bool = False  # stand up and sit down with legs in alternating groups
     pack: bool = False  # fold the legs away when sitting
     find_way: bool = False  # the waypoints are goals to which the robot finds its own way

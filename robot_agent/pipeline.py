@@ -187,6 +187,7 @@ class WalkPipeline:
                 foot_contact=sensed.foot_contact,
                 gravity_in_body=state.gravity_in_body,
                 posing=orders.posing,
+                legs=orders.legs,
                 in_sequence=orders.in_sequence,
                 pack=orders.pack,
             )

@@ -10,8 +10,9 @@ from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.stride import foot_velocity, stride_of, swing_nodes, swing_point
 from robot_agent.locomotion.walk_state import Array, Record
 
-STAND, SWING, REACH, HANG = 0, 1, 2, 3
-"""HANG: reached as far as it may without finding ground; carries nothing until its next swing."""
+STAND, SWING, REACH, HANG, HELD = 0, 1, 2, 3, 4
+"""HANG: reached as far as it may without finding ground; carries nothing until its next swing.
+HELD: in the operator's hands."""
 
 
 @kernel

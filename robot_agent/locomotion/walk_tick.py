@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.locomotion.leg_order import LegOrder
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from weaver_shared.messages import GaitParameters
 from weaver_shared.transforms import Pose
@@ -26,6 +27,7 @@ class WalkInput:
     foot_contact: NDArray[np.bool_]  # (legs,)
     gravity_in_body: Array  # (3,) unit vector, downwards
     posing: PosingOrder = NO_POSING
+    legs: tuple[LegOrder, ...] = ()  # to be held off the ground
     in_sequence: bool = False  # stand up and sit down with legs in alternating groups; False: all at once
     pack: bool = False  # fold the legs away when sitting
 
@@ -46,5 +48,7 @@ class WalkOutput:
     ground_plane: Array  # (3,) a, b, c of z = a x + b y + c through the feet, in the un-posed body
     ground_residual: float  # m rms of the feet about it
     unposed_from_body: Pose  # how the body is posed
+    leg_stages: tuple[str, ...]  # supporting, lifting, held or lowering
+    lift_margins: tuple[float, ...]  # m of static margin without each leg; empty while the robot does not stand
     posture: str
     reasons: tuple[str, ...]  # what limits the walking just now

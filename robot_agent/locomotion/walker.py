@@ -18,6 +18,7 @@ from robot_agent.locomotion.legs_tick import (
     step_tick,
     walk_tick,
 )
+from robot_agent.locomotion.manipulation import Manipulation
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from robot_agent.locomotion.posing.poser import Poser
 from robot_agent.locomotion.reasons import sentences
@@ -70,6 +71,9 @@ class Walker:
         self._gait_is_static = False
         self._poser = Poser(config, model, robot.stance_in_body, np.array(robot.body.centre_of_mass_in_body), dt)
         self._up = state.cut("senses", "up")
+        self._manipulation = Manipulation(robot.leg_names, state, config, dt)
+        self._lift_margins: tuple[float, ...] = ()
+        self._ticks = 0
         self._stability = StabilityWatch(config.stability, dt)
         self._posture = "sitting"
         self._folding: Folding | None = None
@@ -88,6 +92,7 @@ class Walker:
         self._posture = "sitting"
         self._folding = self._foot_glide = None
         self._poser.clear()
+        self._manipulation.clear()
         self._in_air[:], self._walked[:] = False, 0.0
         self._state.record["orders"]["posing_rotation"] = np.eye(3)
         self._state.record["orders"]["posing_position"] = 0.0
@@ -112,7 +117,8 @@ class Walker:
         if not sensed.stand:
             self._velocity[:] = 0.0
         self._act(sensed)
-        return self._answer(reasons + self._poser.reasons)
+        self._ticks += 1
+        return self._answer(reasons + self._poser.reasons + self._manipulation.reasons)
 
     def _take(self, sensed: WalkInput) -> tuple[str, ...]:
         """Write a tick's readings and orders into the memory; what has the wrong size or kind counts as missing."""
@@ -169,15 +175,33 @@ class Walker:
         elif self._posture in ("rising", "lowering"):
             self._glide(sensed)
         else:
-            marching = sensed.in_sequence and not sensed.stand and self._must_march()
+            marching = sensed.in_sequence and not sensed.stand and self._manipulation.idle and self._must_march()
             if marching:
                 self._velocity[:] = (MARCH, 0.0, 0.0)
                 self._marched += self._dt * float(self._state.record["gait"]["frequency"])
+            self._hold_legs(sensed)
             self._walk(sensed.posing if sensed.stand else NO_POSING)
+            self._manipulation.turn_joints(self._angles, self._target.reshape(self._angles.shape))
             if sensed.stand:
                 self._marched = 0.0
-            elif self._posture == "standing" and self._poser.idle and not marching:
+            elif self._posture == "standing" and self._poser.idle and self._manipulation.idle and not marching:
                 self._begin_lowering()
+
+    def _hold_legs(self, sensed: WalkInput) -> None:
+        """Legs are held while the robot stands safely; until all are down again it does not walk."""
+        manipulation, standing = self._manipulation, self._posture == "standing"
+        self._lift_margins = self._margins_without_each() if standing else ()
+        if manipulation.idle and not (sensed.legs and standing and not self._velocity.any()):
+            return
+        orders = sensed.legs if sensed.stand and self._stability.factor > 0.0 else ()
+        manipulation.step(orders, self._poser.pose)
+        self._velocity[:] = 0.0
+
+    def _margins_without_each(self) -> tuple[float, ...]:
+        """Static margins for judging whether a leg may be lifted, renewed ten times a second."""
+        if self._lift_margins and self._ticks % 10:
+            return self._lift_margins
+        return tuple(self._manipulation.margin_without(leg) for leg in range(self._model.leg_count))
 
     def _must_march(self) -> bool:
         """Whether a foot stands too far from where it belongs to be lowered upon."""
@@ -305,6 +329,8 @@ class Walker:
             ground_plane=self._plane.copy(),
             ground_residual=residual,
             unposed_from_body=self._poser.pose,
+            leg_stages=self._manipulation.stages,
+            lift_margins=self._lift_margins,
             posture=self._posture,
             reasons=sentences(limits) + reasons,
         )

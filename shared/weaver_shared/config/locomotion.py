@@ -119,6 +119,19 @@ class PosingConfig(BaseModel):
     }
 
 
+class ManipulationConfig(BaseModel):
+    """Legs lifted for handling things while the robot stands on the others."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    most_legs: Annotated[int, Field(ge=1)] = 2
+    lift_height: Positive = 0.08  # m
+    ground_clearance: Positive = 0.02  # m, of a held foot over the plane of the others
+    largest_tip: Positive = 0.15  # m, on each axis, from where the foot was lifted to
+    tip_speed: Positive = 0.10  # m/s
+    joint_speed: Positive = 0.5  # rad/s
+
+
 class LocomotionConfig(BaseModel):
     """Everything the walker can be tuned with; distances m, times s."""
 
@@ -129,6 +142,7 @@ class LocomotionConfig(BaseModel):
     foothold: FootholdConfig = FootholdConfig()
     stability: StabilityConfig = StabilityConfig()
     posing: PosingConfig = PosingConfig()
+    manipulation: ManipulationConfig = ManipulationConfig()
     largest_stride: Positive = 0.20  # paper: 0.35 m/s at 1 Hz
     largest_speed: Positive = 0.35  # m/s (paper)
     stop_time: Positive = 0.4  # s from the largest velocity to zero

@@ -24,6 +24,10 @@ class CommandName(StrEnum):
     SET_START_UP = "set_start_up"  # name: direct, sequence; how to stand up and sit down
     SET_POSE = "set_pose"  # name: x, y, z (m), roll, pitch, yaw (rad); value
     CLEAR_POSE = "clear_pose"  # name of one axis, or none for all
+    LIFT_LEG = "lift_leg"  # name of a leg: take it off the ground, into the operator's hands
+    LOWER_LEG = "lower_leg"  # name of a leg, or none for all
+    MOVE_TIP = "move_tip"  # name: LEG.x, LEG.y, LEG.z; value m in body from where it was lifted to
+    MOVE_JOINT = "move_joint"  # name: LEG_joint; value rad
     SET_POSING = "set_posing"  # name: automatic, levelling; value 1 or 0
 
 
