@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,9 +14,7 @@ from typing import TextIO
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.locomotion.openshc import robots as openshc_robots
-from robot_agent.locomotion.openshc import step_cycle
-from robot_agent.locomotion.openshc import table as openshc_table
+from robot_agent.command_line import gait_of_openshc
 from robot_agent.locomotion.trajectory import kinematic_gait
 from robot_agent.locomotion.trajectory_table import columns, rows
 from weaver_shared.errors import ConfigurationError, InputError, ResourceError
@@ -23,21 +22,27 @@ from weaver_shared.messages import GaitParameters
 from weaver_shared.robots import load_robot, robot_names
 
 STIFFNESS = 2500.0
+TICKS = 400
 COMPATIBLE = "openshc-0.5.11"
 
 
 def main(arguments: list[str]) -> int:
-    options = _parser().parse_args(arguments)
-    if options.ticks < 1:
+    options = _parser().parse_args(_joined(arguments))
+    if options.ticks is not None and options.ticks < 1:
         raise InputError(f"--ticks {options.ticks} is not valid; use a whole number from 1 up")
     for name, value in (("--frequency", options.frequency), ("--height", options.height), ("--dt", options.dt)):
         if not (isfinite(value) and value > 0.0):
             raise InputError(f"{name} {value} is not valid; use a number above zero")
     velocity = _velocity(options.velocity)
     if options.compat:
-        return _compatible(options, velocity)
+        if options.compat != COMPATIBLE:
+            raise ConfigurationError(f"--compat {options.compat!r} is unknown; known is {COMPATIBLE}")
+        with _opened(options.csv) as legs, _opened(options.body or os.devnull) as body:
+            gait_of_openshc.write(options, velocity, legs, body)
+        return 0
+    gait_of_openshc.refuse(options)
     robot = load_robot(options.robot)
-    gait = robot.gait(options.gait)
+    gait = robot.gait(options.gait or "tripod")
     parameters = GaitParameters(
         stamp_ns=0,
         virtual_stiffness=STIFFNESS,
@@ -46,25 +51,12 @@ def main(arguments: list[str]) -> int:
         confidence=1.0,
     )
     ticks = kinematic_gait(
-        robot, gait=gait.name, velocity=velocity, ticks=options.ticks, parameters=parameters, dt=options.dt
+        robot, gait=gait.name, velocity=velocity, ticks=options.ticks or TICKS, parameters=parameters, dt=options.dt
     )
     with _opened(options.csv) as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(columns(robot.joints_per_leg))
         writer.writerows(rows(robot, gait, ticks, parameters, options.dt))
-    return 0
-
-
-def _compatible(options: argparse.Namespace, velocity: NDArray[np.float64]) -> int:
-    """The trajectories of OpenSHC itself, its own gait timing, limits and solver included."""
-    if options.compat != COMPATIBLE:
-        raise ConfigurationError(f"--compat {options.compat!r} is unknown; known is {COMPATIBLE}")
-    robot = openshc_robots.robot_of(options.robot)
-    step_cycle.StepCycle.of(options.gait, robot.step_frequency, robot.dt)
-    with _opened(options.csv) as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(columns(robot.joints))
-        writer.writerows(openshc_table.rows(robot, options.gait, velocity, options.ticks))
     return 0
 
 
@@ -75,20 +67,30 @@ def _parser() -> argparse.ArgumentParser:
         "for five ticks; the velocity is given once before tick 6. Units: m, rad, s, N.",
     )
     parser.add_argument("--robot", default="weaver", help=f"name ({', '.join(robot_names())}) or .toml file")
-    parser.add_argument("--gait", default="tripod", help="one of the robot's gaits")
+    parser.add_argument("--gait", help="one of the robot's gaits; tripod unless told, or OpenSHC's own choice")
     parser.add_argument("--velocity", default="0.1,0,0", help="vx,vy,wz of the body: m/s, m/s, rad/s")
-    parser.add_argument("--ticks", type=int, default=400, help="number of control ticks")
+    parser.add_argument(
+        "--ticks",
+        type=int,
+        help=f"number of control ticks, {TICKS} unless told; with --stop-after until ten ticks after the stop",
+    )
     parser.add_argument("--frequency", type=float, default=1.0, help="strides per second, Hz")
     parser.add_argument("--height", type=float, default=0.05, help="how high a foot swings, m")
     parser.add_argument("--dt", type=float, default=0.01, help="length of a tick, s")
-    parser.add_argument(
-        "--compat",
-        metavar="VERSION",
-        help=f"{COMPATIBLE}: reproduce OpenSHC for --robot {', '.join(openshc_robots.ROBOTS)} and --gait "
-        f"{', '.join(step_cycle.GAITS)}; --velocity is then its throttle, -1..1, and tick and frequency are its own",
-    )
+    gait_of_openshc.add_options(parser, COMPATIBLE)
     parser.add_argument("--csv", default="-", metavar="FILE", help="where to write; - is the standard output")
     return parser
+
+
+def _joined(arguments: list[str]) -> list[str]:
+    """`--velocity -0.6,0,0` as one word, for argparse takes the second for an option."""
+    joined: list[str] = []
+    for argument in arguments:
+        if joined and joined[-1] == "--velocity":
+            joined[-1] = f"--velocity={argument}"
+        else:
+            joined.append(argument)
+    return joined
 
 
 def _velocity(text: str) -> NDArray[np.float64]:

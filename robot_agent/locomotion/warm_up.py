@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from robot_agent.locomotion import openshc
 from robot_agent.locomotion.walk_tick import WalkInput
 from robot_agent.locomotion.walker import Walker
 from weaver_shared.config.locomotion import LocomotionConfig
@@ -14,7 +15,8 @@ from weaver_shared.robots import RobotDescription, load_robot
 
 
 def warm_up(robot: RobotDescription | None = None) -> None:
-    """Walk a robot (Weaver unless told otherwise) for a stride with and without ground contact."""
+    """Walk a robot (Weaver unless told otherwise) for a stride with and without ground contact, and OpenSHC's legs."""
+    openshc.warm_up()
     robot = robot or load_robot()
     for feel_ground in (True, False):
         tick = walking_tick(robot, LocomotionConfig(feel_ground=feel_ground), frequency=1.0)

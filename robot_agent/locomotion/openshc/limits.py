@@ -1,45 +1,31 @@
-"""Workspace, walkspace and the speed limits that OpenSHC derives from them (facts 3.4, 3.5)."""
+"""Walkspace and the speed limits that OpenSHC derives from it (facts 3.4, 3.5)."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, cos, degrees, inf, radians, sin
+from math import atan2, cos, degrees, inf, radians
 
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.locomotion.openshc.leg import Leg
 from robot_agent.locomotion.openshc.step_cycle import StepCycle
+from robot_agent.locomotion.openshc.workspace import BEARINGS, LARGEST_RADIUS, Radii, Workspace
 
 Array = NDArray[np.float64]
 
-BEARINGS = tuple(range(0, 361, 45))
-STEP = 0.002
-LARGEST_RADIUS = 1.0
 
+def walkspace(stance: Array, workspaces: Sequence[Workspace], *, overlapping: bool = False) -> Radii:
+    """Radius common to all legs standing at `stance` (legs, 2 or 3).
 
-def workspace(leg: Leg, identity: Array) -> dict[int, float]:
-    """Radius (m) by bearing (deg) that the leg reaches about its identity tip (3,), one solver step each 2 mm."""
-    radius = {}
-    for bearing in BEARINGS[:-1]:
-        trial = leg.copy(clamp_rate=False)
-        direction = np.array([cos(radians(bearing)), sin(radians(bearing)), 0.0])
-        for step in range(1, round(LARGEST_RADIUS / STEP) + 1):
-            if trial.step_to(identity + direction * step * STEP) <= 0.0:
-                break
-        radius[bearing] = float(np.linalg.norm(trial.tip() - identity))
-    radius[360] = radius[0]
-    return radius
-
-
-def walkspace(stance: Array, workspaces: list[dict[int, float]]) -> dict[int, float]:
-    """Radius common to all legs. Each new minimum overwrites the opposite bearing, even with a larger value."""
-    result = {bearing: _half_gap(stance, bearing) for bearing in BEARINGS}
-    for radius in workspaces:
-        for bearing in BEARINGS:
-            if radius[bearing] < result[bearing]:
-                result[bearing] = radius[bearing]
-                result[(bearing + 180) % 360] = radius[bearing]
+    Each new minimum overwrites the opposite bearing, even with a larger value (D22).
+    """
+    result = {bearing: LARGEST_RADIUS if overlapping else _half_gap(stance, bearing) for bearing in BEARINGS}
+    for space in workspaces:
+        for bearing, radius in space.at(0.0).items():
+            if radius < result[bearing]:
+                result[bearing] = radius
+                result[(bearing + 180) % 360] = radius
     result[360] = result[0]
     return result
 
@@ -51,7 +37,7 @@ def _half_gap(stance: Array, bearing: int) -> float:
         for neighbour in ((leg + 1) % len(stance), leg - 1):
             gap = stance[neighbour] - stance[leg]
             difference = abs(int(degrees(atan2(gap[1], gap[0]))) % 360 - bearing)
-            if difference < 90 or difference > 270:
+            if (difference < 90 or difference > 270) and gap.any():
                 least = min(least, 0.5 * float(np.linalg.norm(gap)) / cos(radians(difference)))
     return least
 
@@ -60,17 +46,18 @@ def _half_gap(stance: Array, bearing: int) -> float:
 class SpeedLimits:
     """By bearing (deg): m/s, rad/s, m/s^2, rad/s^2."""
 
-    linear: dict[int, float]
-    angular: dict[int, float]
-    linear_acceleration: dict[int, float]
-    angular_acceleration: dict[int, float]
+    linear: Radii
+    angular: Radii
+    linear_acceleration: Radii
+    angular_acceleration: Radii
 
     @staticmethod
-    def of(walk: dict[int, float], cycle: StepCycle, stance: Array, dt: float) -> SpeedLimits:
+    def of(walk: Radii, cycle: StepCycle, reference_foot: Array) -> SpeedLimits:
+        """`reference_foot` (2,) m, of the first leg, alone sets the angular limits (D23)."""
         inside = [cycle.swing_end - o for o in cycle.offsets if cycle.swing_start < o < cycle.swing_end]
-        longest = (max(inside, default=0) + cycle.period) * dt
-        turn_radius = float(np.linalg.norm(stance[0]))
-        linear = {b: _largest_speed(radius, cycle, longest, dt) for b, radius in walk.items()}
+        longest = (max(inside, default=0) + cycle.period) * cycle.dt
+        turn_radius = float(np.linalg.norm(reference_foot))
+        linear = {b: _largest_speed(radius, cycle, longest) for b, radius in walk.items()}
         return SpeedLimits(
             linear=linear,
             angular={b: v / turn_radius for b, v in linear.items()},
@@ -79,7 +66,7 @@ class SpeedLimits:
         )
 
 
-def _largest_speed(radius: float, cycle: StepCycle, longest: float, dt: float) -> float:
+def _largest_speed(radius: float, cycle: StepCycle, longest: float) -> float:
     """Speed whose stance, also the longer first one while speeding up, stays within `radius`."""
     if radius == 0.0:
         return 0.0
@@ -88,21 +75,22 @@ def _largest_speed(radius: float, cycle: StepCycle, longest: float, dt: float) -
     a0 = v0 / longest
     over_stance = 0.0
     for offset in cycle.offsets:
-        t = offset * dt
+        t = offset * cycle.dt
         vs = a0 * (longest - t)
         d1 = -vs * ratio / (2.0 * f) + vs * t + 0.5 * a0 * t * t
-        d2 = v0 * (cycle.stance_period * dt - t)
+        d2 = v0 * (cycle.stance_period * cycle.dt - t)
         over_stance = max(over_stance, d1 + d2 - radius)
     over_swing = 0.5 * v0 * cycle.swing_period / (2.0 * cycle.period * f)
     scaled = radius * radius / (radius + over_stance + over_swing)
     return 2.0 * scaled * f / ratio
 
 
-def limit_towards(limits: dict[int, float], tips: Array, linear: Array, angular: float) -> float:
+def limit_towards(limits: Radii, tips: Array, linear: Array, angular: float) -> float:
     """Least limit over the legs' own directions. The bearing's lower neighbour counts, not an interpolation (D4)."""
     least = inf
     for tip in tips:
         x, y = linear[0] - angular * tip[1], linear[1] + angular * tip[0]
-        bearing = round(degrees(atan2(y, x))) % 360
+        turned = degrees(atan2(y, x))
+        bearing = (int(turned + 0.5) if turned >= 0.0 else -int(0.5 - turned)) % 360
         least = min(least, limits[bearing - bearing % 45])
     return least

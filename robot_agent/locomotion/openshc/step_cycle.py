@@ -2,28 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from weaver_shared.errors import ConfigurationError
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GaitTable:
-    """Stance, swing and offset in parts of a stride, and how often each leg takes the offset, AR BR CR CL BL AL."""
-
-    stance: int
-    swing: int
-    offset: int
-    multipliers: tuple[int, ...]
-
-
-GAITS = {
-    "wave_gait": GaitTable(stance=10, swing=2, offset=2, multipliers=(2, 3, 4, 1, 0, 5)),
-    "amble_gait": GaitTable(stance=2, swing=1, offset=1, multipliers=(1, 2, 0, 1, 2, 0)),
-    "ripple_gait": GaitTable(stance=4, swing=2, offset=1, multipliers=(2, 0, 4, 1, 3, 5)),
-    "tripod_gait": GaitTable(stance=2, swing=2, offset=2, multipliers=(0, 1, 0, 1, 0, 1)),
-    "bipod_gait": GaitTable(stance=2, swing=4, offset=2, multipliers=(0, 1, 2, 0, 1, 2)),
-}
+from robot_agent.locomotion.openshc.configuration import Gait
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,6 +14,7 @@ class StepCycle:
 
     period: int
     frequency: float  # Hz, really stepped
+    dt: float  # s
     swing_start: int
     swing_end: int
     swing_period: int
@@ -50,26 +33,33 @@ class StepCycle:
     def on_ground_ratio(self) -> float:
         return self.stance_period / self.period
 
+    @property
+    def swing_ticks(self) -> int:
+        """As OpenSHC counts them again from the frequency, even."""
+        return even_up(self.ticks_of(self.swing_period))
+
+    def ticks_of(self, part: int) -> int:
+        """Ticks of `part` of the period by way of the frequency; rounding may lose one."""
+        return int((part / self.period) / (self.frequency * self.dt))
+
     @staticmethod
-    def of(gait: str, step_frequency: float, dt: float) -> StepCycle:
-        """The cycle of a named gait. Raises ConfigurationError that names the known ones."""
-        if gait not in GAITS:
-            raise ConfigurationError(f"gait {gait!r} is not one of OpenSHC's; known are {', '.join(GAITS)}")
-        table = GAITS[gait]
-        base = table.stance + table.swing
-        raw = (1.0 / step_frequency) / dt / (table.swing / base)
+    def of(gait: Gait, step_frequency: float, dt: float, legs: Sequence[str]) -> StepCycle:
+        """`step_frequency` (Hz) is one over the swing's time; `legs` gives the offsets' order."""
+        base = gait.stance_phase + gait.swing_phase
+        raw = (1.0 / step_frequency) / dt / (gait.swing_phase / base)
         period = even_up(raw / base) * base
         part = period // base
-        swing_start = int(table.stance * 0.5) * part
-        swing_period = table.swing * part
+        swing_start = int(gait.stance_phase * 0.5) * part
+        swing_period = gait.swing_phase * part
         return StepCycle(
             period=period,
             frequency=1.0 / (period * dt),
+            dt=dt,
             swing_start=swing_start,
             swing_end=swing_start + swing_period,
             swing_period=swing_period,
-            stance_period=table.stance * part,
-            offsets=tuple(table.offset * part * multiplier % period for multiplier in table.multipliers),
+            stance_period=gait.stance_phase * part,
+            offsets=tuple(gait.phase_offset * part * gait.offset_multiplier[leg] % period for leg in legs),
         )
 
 

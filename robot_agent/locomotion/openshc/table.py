@@ -1,4 +1,4 @@
-"""An OpenSHC walk as rows of text, with the columns and the order of its recordings."""
+"""A run of OpenSHC as rows of text, with the columns and the order of its recordings."""
 
 from __future__ import annotations
 
@@ -7,33 +7,72 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.locomotion.openshc.robots import LEGS, Robot
-from robot_agent.locomotion.openshc.walk import Walk
+from robot_agent.locomotion.openshc.body_pose import BodyPose
+from robot_agent.locomotion.openshc.controller import Controller
 from weaver_shared.transforms import wxyz_from_rotation
 
-IDLE_TICKS = 5
-ADMITTANCE_STIFFNESS_FORCE = np.zeros(7)
-"""Applied offset, reported stiffness and estimated force: admittance is off in these runs."""
+Array = NDArray[np.float64]
+
+UNKNOWN = 2147483647.0
+"""What OpenSHC says where nothing was ever set."""
+
+BODY_COLUMNS = (
+    *("tick", "robot_state", "walk_state", "in_vx", "in_vy", "in_wz", "vx", "vy", "wz"),
+    *(f"odom_{part}" for part in ("x", "y", "z", "qw", "qx", "qy", "qz")),
+    *(f"pose_{part}" for part in ("x", "y", "z", "qw", "qx", "qy", "qz")),
+    *(f"auto_{part}" for part in ("x", "y", "z", "qw", "qx", "qy", "qz")),
+    *(f"manual_{part}" for part in ("x", "y", "z", "qw", "qx", "qy", "qz")),
+    *("imu_qw", "imu_qx", "imu_qy", "imu_qz", "incl_x", "incl_y", "plane_a", "plane_b", "plane_c"),
+)
 
 
-def rows(robot: Robot, gait: str, velocity: NDArray[np.float64], ticks: int) -> Iterator[list[str]]:
-    """Ticks 0..ticks; `velocity` (3,) is the throttle vx, vy, turn, each in -1..1, given once before tick 6."""
-    walk = Walk(robot, gait)
-    for tick in range(ticks + 1):
-        if tick:
-            command = velocity if tick > IDLE_TICKS else np.zeros(3)
-            walk.tick(command[:2], float(command[2]))
-        for leg, name in enumerate(LEGS):
-            numbers = _numbers(walk, leg)
-            yield [str(tick), name, str(walk.step_state[leg]), *(f"{value:.10g}" for value in numbers)]
+def leg_rows(tick: int, controller: Controller) -> Iterator[list[str]]:
+    """One row a leg, with the columns of `trajectory_table.columns`."""
+    for leg, name in enumerate(controller.description.leg_id):
+        state = controller.walk.paths[leg].step_state
+        yield [str(tick), name, str(state), *_texts(_leg_numbers(controller, leg))]
 
 
-def _numbers(walk: Walk, leg: int) -> NDArray[np.float64]:
-    path, chain = walk.paths[leg], walk.legs[leg]
+def _leg_numbers(controller: Controller, leg: int) -> Array:
+    path, chain, admittance = controller.walk.paths[leg], controller.legs[leg], controller.admittance
     frame = chain.tip_frame()
-    wanted = path.tip - np.array([0.0, 0.0, walk.robot.clearance])
-    timing = [walk.phase[leg], *walk.progress[leg]]
-    vectors = [path.tip, path.velocity, path.target, path.default, path.stride, wanted, frame[:3, 3]]
-    rotation = wxyz_from_rotation(frame[:3, :3])
+    wanted = controller.wanted_tips[leg]
+    timing = [path.phase, path.swing_progress, path.stance_progress]
+    vectors = [path.tip, path.velocity, path.target, path.default, path.stride]
+    vectors += [np.full(3, UNKNOWN) if wanted is None else wanted, frame[:3, 3]]
+    force = np.zeros(3)  # no joint effort is simulated, in the recordings neither
+    felt = [admittance.offsets[leg], [admittance.stiffness[leg]], force]
     joints = np.column_stack([chain.position, chain.rate]).ravel()
-    return np.concatenate([timing, *vectors, rotation, ADMITTANCE_STIFFNESS_FORCE, joints]) + 0.0
+    return np.concatenate([timing, *vectors, _wxyz(frame[:3, :3]), *felt, joints])
+
+
+def _wxyz(rotation: Array) -> Array:
+    """With the sign Eigen gives: w positive where the trace is, else the largest diagonal element's component."""
+    wxyz = wxyz_from_rotation(rotation)
+    if np.trace(rotation) > 0.0:
+        return wxyz
+    return wxyz if wxyz[1 + int(np.argmax(np.diag(rotation)))] > 0.0 else -wxyz
+
+
+def body_row(tick: int, controller: Controller) -> list[str]:
+    """The body's row of a tick, with BODY_COLUMNS."""
+    posing, walk = controller.posing, controller.walk
+    auto = BodyPose() if posing.auto is None else posing.auto.pose
+    numbers = np.concatenate(
+        [
+            [*controller.linear, controller.angular, *walk.velocity.linear, walk.velocity.angular],
+            *(_pose(pose) for pose in (walk.odometry, posing.pose, auto, posing.manual)),
+            wxyz_from_rotation(posing.imu.rotation),
+            posing.inclination.position[:2],
+            walk.plane,
+        ]
+    )
+    return [str(tick), str(controller.robot_state), str(walk.state), *_texts(numbers)]
+
+
+def _pose(pose: BodyPose) -> Array:
+    return np.concatenate([pose.position, wxyz_from_rotation(pose.rotation)])
+
+
+def _texts(numbers: Array) -> list[str]:
+    return [f"{number:.10g}" for number in numbers + 0.0]
