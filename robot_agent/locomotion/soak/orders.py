@@ -30,6 +30,7 @@ class RandomOrders:
         self._parameters = _parameters(1.0, 0.05, 1500.0)
         self._gait = robot.gaits[0]
         self._stand = True
+        self._in_sequence = self._pack = False
         self._posing = NO_POSING
         self._down = np.array([0.0, 0.0, -1.0])
 
@@ -50,6 +51,8 @@ class RandomOrders:
             foot_contact=contact,
             gravity_in_body=self._spoilt(self._down),
             posing=self._posing,
+            in_sequence=self._in_sequence,
+            pack=self._pack,
         )
 
     def _change(self) -> None:
@@ -64,6 +67,7 @@ class RandomOrders:
             self._gait = str(rng.choice([*self._robot.gaits, "gallop"]))
         if changes[3]:
             self._stand = bool(rng.random() < 0.8)
+            self._in_sequence, self._pack = bool(rng.random() < 0.3), bool(rng.random() < 0.3)
         if changes[4]:
             manual = self._spoilt(rng.normal(0.0, 0.05, 6), chance=0.2)
             self._posing = PosingOrder(
