@@ -13,6 +13,8 @@ Array = NDArray[np.float64]
 DAMPING = 1e-3
 """Damping over the stretched leg length; relative, so that small robots do not lag behind large ones."""
 ITERATIONS = 24
+ALIGNED_ITERATIONS = 14
+"""After these the foot's place alone counts: near joint limits both can not be had."""
 ALIGNMENT_GAIN = 0.3
 
 
@@ -29,7 +31,8 @@ def solve_damped(
 ) -> float:
     """Move `solution` (n,), the starting guess, to the foot within the joint limits; returns the distance left, m.
 
-    With more than three joints the last link turns towards `direction` as far as the foot position allows.
+    With more than three joints the last link turns towards `direction` as far as the foot position allows. A joint that
+    ran into its limit is left out of the next step, which the others then take alone.
     """
     n = dh.shape[0]
     origins, axes, jacobian = np.empty((n + 1, 3)), np.empty((n, 3)), np.empty((3, n))
@@ -37,7 +40,8 @@ def solve_damped(
     reach = np.abs(dh[:, 1:3]).sum()
     best, best_solution = 1e9, solution.copy()
     damping = (DAMPING * reach) ** 2
-    for _ in range(ITERATIONS):
+    stopped = np.zeros(n, dtype=np.bool_)
+    for iteration in range(ITERATIONS):
         leg_frames(dh, hip_in_body, hip_axes, solution, origins, axes)
         for k in range(3):
             error[k] = foot_in_body[k] - origins[n, k]
@@ -50,19 +54,32 @@ def solve_damped(
         if left > 0.25 * reach:
             error *= 0.25 * reach / left
         foot_jacobian(origins, axes, jacobian)
-        if n > 3:
+        align[:] = 0.0
+        if n > 3 and iteration < ALIGNED_ITERATIONS:
             _alignment(origins, axes, direction, align)
-            for k in range(3):
-                for i in range(n):
-                    error[k] -= jacobian[k, i] * align[i]
+        _leave_out(stopped, jacobian, align, error)
         _normal_matrix(jacobian, damping, normal)
         if not solve_symmetric(normal, error, step):
             break
         for i in range(n):
             change = align[i] + jacobian[0, i] * step[0] + jacobian[1, i] * step[1] + jacobian[2, i] * step[2]
-            solution[i] = min(max(solution[i] + change, limits[i, 0]), limits[i, 1])
+            wanted = solution[i] + change
+            solution[i] = min(max(wanted, limits[i, 0]), limits[i, 1])
+            stopped[i] = wanted != solution[i]
     solution[:] = best_solution
     return best
+
+
+@kernel
+def _leave_out(stopped: NDArray[np.bool_], jacobian: Array, align: Array, error: Array) -> None:
+    """Take the stopped joints out of the step, and what the alignment moves the foot by out of the error."""
+    for i in range(align.size):
+        if stopped[i]:
+            align[i] = 0.0
+        for k in range(3):
+            if stopped[i]:
+                jacobian[k, i] = 0.0
+            error[k] -= jacobian[k, i] * align[i]
 
 
 @kernel

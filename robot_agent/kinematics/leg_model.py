@@ -30,6 +30,7 @@ class LegModel:
     speed_limit: Array  # (n,) rad/s
     servo_stiffness: Array  # (n,) N m/rad of the position loop
     servo_lag: Array  # (n,) s, back-EMF damping over stiffness
+    standing: Array  # (n,) rad, where the search for a standing posture begins
     closed_form: int  # which one the chain has, see `inverse`
 
     @property
@@ -44,6 +45,12 @@ class LegModel:
     def reach(self) -> float:
         """Length of the stretched chain, m."""
         return float(np.abs(self.dh[:, 1:3]).sum())
+
+    def limits_less(self, margin: float) -> Array:
+        """Limits (n, 2) drawn in by `margin` rad, but by no more than a quarter of what a joint can move."""
+        taken = np.minimum(margin, 0.25 * (self.limits[:, 1] - self.limits[:, 0]))
+        drawn: Array = self.limits + np.outer(taken, [1.0, -1.0])
+        return drawn
 
     @staticmethod
     def of_robot(robot: RobotDescription, *, speed_fraction: float = 0.9) -> LegModel:
@@ -62,6 +69,7 @@ class LegModel:
             speed_limit=np.array([speed_fraction * s.no_load_speed for s in servos]),
             servo_stiffness=np.array(stiffness),
             servo_lag=np.array(damping) / np.array(stiffness),
+            standing=robot.standing_search[0].copy(),
             closed_form=_closed_form(robot),
         )
 

@@ -11,10 +11,12 @@ from robot_agent.locomotion.walk_state import Array, Record
 def follow_parameters(walk: Record) -> None:
     """Frequency (Hz), swing height (m) and virtual stiffness (N/m) follow their order at a bounded rate.
 
-    The first usable order is taken as it is. One that is not finite keeps what was in use.
+    The first usable order is taken as it is. One that is not finite keeps what was in use. No swing of the chosen gait
+    becomes shorter than the settings say.
     """
     gait, settings, orders, dt = walk.gait, walk.settings, walk.orders.parameters, walk.model.dt
     frequency = _bounded(orders[0], gait.frequency, settings.frequency_bounds)
+    frequency = min(frequency, (1.0 - walk.orders.duty) / settings.shortest_swing)
     height = _bounded(orders[1], gait.height, settings.height_bounds)
     stiffness = _bounded(orders[2], gait.stiffness, settings.admittance.stiffness_bounds)
     usable = np.isfinite(orders[0]) and np.isfinite(orders[1]) and np.isfinite(orders[2])

@@ -33,7 +33,6 @@ MODEL = np.dtype(
         ("hip_axes", F, (LEGS, 3, 3)),
         ("link_mass", F, (JOINTS,)),  # kg
         ("speed_limit", F, (JOINTS,)),  # rad/s
-        ("target_step", F, (JOINTS,)),  # rad, the most a servo turns in a tick without load
         ("servo_stiffness", F, (JOINTS,)),  # N m/rad
         ("servo_lag", F, (JOINTS,)),  # s, with the tick that the bus takes
         ("trunk_mass", F),  # kg

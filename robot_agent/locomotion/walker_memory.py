@@ -11,10 +11,12 @@ from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.frames import GRAVITY
 from weaver_shared.robots import RobotDescription
 
-GROUND_HEIGHTS = (-0.04, 0.0, 0.04)
-"""m above the stance at which a stride has to be within reach."""
-LOWEST_FOOTHOLD, HIGHEST_FOOTHOLD = 0.09, 0.16
-"""m below and above the stance."""
+GROUND_HEIGHTS = (-0.12, 0.0, 0.12)
+"""Above the stance, of the leg's length, at which a stride has to be within reach."""
+LOWEST_FOOTHOLD, HIGHEST_FOOTHOLD = 0.265, 0.47
+"""Below and above the stance, of the leg's length."""
+SPARE = 0.06
+"""Of the leg's length, beyond half the largest stride up to which the reach is searched."""
 
 
 def walker_memory(robot: RobotDescription, model: LegModel, config: LocomotionConfig, dt: float) -> WalkState:
@@ -27,13 +29,12 @@ def walker_memory(robot: RobotDescription, model: LegModel, config: LocomotionCo
     record["force_blend"] = 1.0 - np.exp(-dt / config.admittance.force_time)
     record["plane_blend"] = 1.0 - np.exp(-dt / config.posture.plane_time)
     state.cut("model", "radius")[:] = reachable_radius(
-        model, stance, np.array(GROUND_HEIGHTS), 0.5 * config.largest_stride + 0.02
+        model, stance, model.reach * np.array(GROUND_HEIGHTS), 0.5 * config.largest_stride + SPARE * model.reach
     )
     record["servo_lag"][: model.joints_per_leg] += dt  # the bus brings a target one tick later
-    record["target_step"][: model.joints_per_leg] = [robot.servos[j.servo].no_load_speed * dt for j in robot.joints]
     record["foot_depth"] = -stance[:, 2].mean()
-    record["down_limit"] = stance[:, 2].min() - LOWEST_FOOTHOLD
-    record["up_limit"] = stance[:, 2].max() + HIGHEST_FOOTHOLD
+    record["down_limit"] = stance[:, 2].min() - LOWEST_FOOTHOLD * model.reach
+    record["up_limit"] = stance[:, 2].max() + HIGHEST_FOOTHOLD * model.reach
     state.record["orders"]["posing_rotation"] = np.eye(3)
     state.record["senses"]["up"] = state.record["senses"]["unposed_up"] = (0.0, 0.0, 1.0)
     gait = state.record["gait"]

@@ -10,7 +10,10 @@ from robot_agent.kinematics.inverse import solve_leg
 Array = NDArray[np.float64]
 
 BEARINGS = 36
-RADIUS_STEP = 0.004
+RADIUS_STEP = 0.012
+"""Of the leg's length."""
+REACHED = 0.003
+"""Distance left, of the leg's length, at which a place counts as reached."""
 LIMIT_MARGIN = 0.05
 """rad kept from every joint limit."""
 
@@ -21,9 +24,20 @@ def reachable_radius(model: LegModel, stance_in_body: Array, heights: Array, lar
     Bearing i is 360 i / BEARINGS degrees from the body's x axis. The radius is the smaller of a bearing and its
     opposite, since a stride is centred on the stance.
     """
-    limits = model.limits + np.array([LIMIT_MARGIN, -LIMIT_MARGIN])
+    limits = model.limits_less(LIMIT_MARGIN)
     radius = np.zeros((model.leg_count, BEARINGS))
-    _fill(model.dh, limits, model.closed_form, model.hips, model.hip_axes, stance_in_body, heights, largest, radius)
+    _fill(
+        model.dh,
+        limits,
+        model.closed_form,
+        model.hips,
+        model.hip_axes,
+        stance_in_body,
+        heights,
+        largest,
+        model.standing,
+        radius,
+    )
     opposite: Array = np.minimum(radius, np.roll(radius, BEARINGS // 2, axis=1))
     return opposite
 
@@ -38,28 +52,31 @@ def _fill(
     stance: Array,
     heights: Array,
     largest: float,
+    standing: Array,
     radius: Array,
 ) -> None:
     n = dh.shape[0]
     down = np.array([0.0, 0.0, -1.0])
     joints, guess, foot = np.zeros(n), np.zeros(n), np.zeros(3)
+    reach = np.abs(dh[:, 1:3]).sum()
+    step = RADIUS_STEP * reach
     for leg in range(hips.shape[0]):
         for bearing in range(radius.shape[1]):
             angle = 2.0 * np.pi * bearing / radius.shape[1]
             reached = largest
             for height in heights:
                 for i in range(n):
-                    guess[i] = 0.5 * (limits[i, 0] + limits[i, 1])
+                    guess[i] = standing[i]
                 far = 0.0
                 while far < reached:
-                    foot[0] = stance[leg, 0] + (far + RADIUS_STEP) * np.cos(angle)
-                    foot[1] = stance[leg, 1] + (far + RADIUS_STEP) * np.sin(angle)
+                    foot[0] = stance[leg, 0] + (far + step) * np.cos(angle)
+                    foot[1] = stance[leg, 1] + (far + step) * np.sin(angle)
                     foot[2] = stance[leg, 2] + height
                     left = solve_leg(dh, limits, closed_form, hips[leg], hip_axes[leg], foot, down, guess, joints)
-                    if left > 1e-3:
+                    if left > REACHED * reach:
                         break
                     guess[:] = joints
-                    far += RADIUS_STEP
+                    far += step
                 reached = min(reached, far)
             radius[leg, bearing] = reached
 

@@ -1,12 +1,14 @@
 """Worlds by name."""
 
 from collections.abc import Callable
+from functools import partial
 
 from sim_agent.worlds.flat import flat
+from sim_agent.worlds.incline import incline
 from sim_agent.worlds.obstacles import pen, wall
 from sim_agent.worlds.outdoor import outdoor
 from sim_agent.worlds.scene import World
-from sim_agent.worlds.stairs import stairs
+from sim_agent.worlds.stairs import low_stairs, stairs
 from sim_agent.worlds.testbed import paper_testbed
 from weaver_shared.errors import ConfigurationError
 
@@ -17,6 +19,9 @@ _WORLDS: dict[str, Callable[[int], World]] = {
     "stairs": stairs,
     "wall": wall,
     "pen": pen,
+    "stairs6": low_stairs,
+    "incline10": partial(incline, 10.0),
+    "incline20": partial(incline, 20.0),
 }
 
 WORLD_NAMES: tuple[str, ...] = tuple(_WORLDS)

@@ -77,6 +77,24 @@ def test_the_cameras_look_forward_and_down(weaver: RobotDescription) -> None:
         ),
         ("rate = 12.5", "rate = 12.5\nbrightness = 3", "camera.brightness: Extra inputs are not permitted"),
         ("[camera]", "[camera", "is not valid TOML"),
+        (
+            "stance_in_body = [0.278, -0.289]",
+            "stance_in_body = [0.6, -0.6]",
+            "legs.0.stance_in_body: leg AR comes",
+        ),
+        ("stall_torque = 10.0", "stall_torque = 0.5", "servos.mx106.stall_torque: joint femur needs"),
+        ('name = "BR"', 'name = "AR"', "legs: the name 'AR' stands for more than one"),
+        (
+            "standing = -0.7",
+            "standing = -7.0",
+            "joint femur: standing angle -7.0 rad is outside its limits -1.75 to 1.4",
+        ),
+        (
+            "[body]",
+            '[[custom_gaits]]\nname = "own"\nduty = 0.6\noffsets = { AR = 0.0 }\n[body]',
+            "custom_gaits.own.offsets: has AR; give one for each of the legs AR, BR, CR, CL, BL, AL",
+        ),
+        ("[body]", "[locomotion]\nlargest_strid = 0.2\n[body]", "locomotion.largest_strid: Extra inputs"),
     ],
 )
 def test_a_mistake_is_named(tmp_path: Path, old: str, new: str, sentence: str) -> None:

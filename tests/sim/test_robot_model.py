@@ -11,12 +11,17 @@ from sim_agent.model import leg_links, link_poses, robot_urdf, sitting_joints
 from sim_agent.model.urdf import fixed_axis_angles
 from sim_agent.physics.quiet import quiet
 from weaver_shared.errors import ConfigurationError
-from weaver_shared.robots import RobotDescription
+from weaver_shared.robots import RobotDescription, load_robot
 from weaver_shared.robots.forward_kinematics import feet_in_body, joint_frames_in_body
 from weaver_shared.transforms import rotation_from_rpy
 
 with quiet():
     import pybullet
+
+
+@pytest.fixture(params=["weaver", "bullet_b_mammalian", "max", "octopod"])
+def robot(request: pytest.FixtureRequest) -> RobotDescription:
+    return load_robot(request.param)
 
 
 @pytest.fixture
@@ -71,9 +76,9 @@ def test_a_sitting_robot_has_its_feet_on_the_plane_of_its_belly(robot: RobotDesc
     joints = sitting_joints(robot)
     feet = feet_in_body(robot, joints)
     assert np.allclose(feet[:, :2], robot.stance_in_body[:, :2], atol=1e-3)
-    assert np.allclose(feet[:, 2], robot.foot_radius, atol=1e-3)
+    assert np.allclose(feet[:, 2], robot.belly - robot.sitting_gap + robot.foot_radius, atol=1e-3)
     lower, upper = np.tile(robot.joint_limits, (robot.leg_count, 1)).T
-    assert np.all((joints > lower) & (joints < upper))
+    assert np.all((joints >= lower) & (joints <= upper))
 
 
 def test_a_robot_that_can_not_sit_is_refused(robot: RobotDescription) -> None:
@@ -87,8 +92,6 @@ def test_a_robot_that_can_not_sit_is_refused(robot: RobotDescription) -> None:
 @settings(max_examples=20)
 @given(st.integers(0, 4))
 def test_link_moments_could_belong_to_a_solid_body(index: int) -> None:
-    from weaver_shared.robots import load_robot
-
     moments = np.sort(leg_links(load_robot())[index].inertia)
     assert moments[0] > 0.0
     assert moments[2] <= moments[0] + moments[1] + 1e-15

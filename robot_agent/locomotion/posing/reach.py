@@ -27,12 +27,12 @@ class PoseReach:
 
     def __init__(self, model: LegModel, nominal: Array, centre_of_mass: Array, least_margin: float) -> None:
         self._model = model
-        self._limits = model.limits + np.array([LIMIT_MARGIN, -LIMIT_MARGIN])
+        self._limits = model.limits_less(LIMIT_MARGIN)
         self._nominal = nominal
         self._centre = centre_of_mass
         self._least_margin = least_margin
         self._all = np.ones(model.leg_count, dtype=np.bool_)
-        self._middle = np.tile(self._limits.mean(axis=1), (model.leg_count, 1))
+        self._middle = np.tile(model.standing, (model.leg_count, 1))
         self._angles = np.zeros_like(self._middle)
         self._left = np.zeros(model.leg_count)
         self._wanted = np.zeros(6)

@@ -150,6 +150,7 @@ class LocomotionConfig(BaseModel):
     frequency_bounds: tuple[Positive, Positive] = (0.1, 1.5)  # Hz
     height_bounds: tuple[Positive, Positive] = (0.01, 0.16)  # m
     frequency_rate: Positive = 0.5  # Hz/s
+    shortest_swing: Positive = 0.28  # s; gaits that swing a small part of their stride are walked at a lower frequency
     height_rate: Positive = 0.1  # m/s, between swings
     stiffness_rate: Positive = 2000.0  # N/m/s
     rise_speed: Positive = 0.06  # m/s, mean, while standing up or sitting down

@@ -26,6 +26,7 @@ def joints_reaching(robot: RobotDescription, feet: Array, begin: Array, *, steps
     joints = np.clip(begin, lower, upper)
     best, left = joints.copy(), np.full(robot.leg_count, np.inf)
     size = leg_length(robot)
+    freedom = np.minimum(upper - lower, 1.0)  # a joint that can hardly move is not counted on
     for _ in range(steps):
         error = feet - feet_in_body(robot, joints)
         distance = np.linalg.norm(error, axis=1)
@@ -33,11 +34,11 @@ def joints_reaching(robot: RobotDescription, feet: Array, begin: Array, *, steps
         best[nearer], left[nearer] = joints[nearer], distance[nearer]
         if float(left.max()) < TOLERANCE * size:
             break
-        jacobian = foot_jacobians(robot, joints)
+        jacobian = foot_jacobians(robot, joints) * freedom
         transposed = np.swapaxes(jacobian, 1, 2)
         inverse = transposed @ np.linalg.inv(jacobian @ transposed + 1e-4 * size**2 * np.eye(3))
         free = np.eye(robot.joints_per_leg) - inverse @ jacobian
-        step = (inverse @ error[..., None] + HOMING * free @ (begin - joints)[..., None])[..., 0]
+        step = (freedom[:, None] * inverse @ error[..., None] + HOMING * free @ (begin - joints)[..., None])[..., 0]
         joints = np.clip(joints + np.clip(step, -LARGEST_STEP, LARGEST_STEP), lower, upper)
     return best, left
 

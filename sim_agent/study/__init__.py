@@ -1,0 +1,1 @@
+"""Studies: many walks of simulated robots, each in a process of its own, and what is learnt from them."""
