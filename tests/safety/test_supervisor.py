@@ -159,3 +159,40 @@ def test_adding_a_fault_never_makes_the_verdict_milder(
     after = SafetySupervisor().step(dataclasses.replace(inputs, imu_age=9.0, joints_missing=9.0), 0.01)
     assert SEVERITY[after.action] >= SEVERITY[before.action]
     assert (after.action is SafetyAction.ALLOW) == (after.reasons == ())
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"tilt": radians(40)}, "tilted by 40 degrees"),
+        ({"tilt": radians(70)}, "tilted by 70 degrees: fallen over"),
+        ({"imu_age": 0.3}, "the IMU has been silent for 0.3 s"),
+        ({"joints_missing": 0.2}, "a servo has not answered for 0.2 s"),
+        ({"temperature": 75.0}, "a servo is at 75 degrees Celsius"),
+        ({"power_age": 6.0}, "the power monitor has been silent for 6 s"),
+        ({"battery_voltage": 23.1}, "the battery is at 23.1 V"),
+        ({"operator_silence": 1.2}, "the operator has been silent for 1.2 s"),
+    ],
+)
+def test_a_reason_is_a_whole_sentence_with_its_unit(changes: dict[str, object], sentence: str) -> None:
+    assert verdict(**changes)[1] == sentence
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"temperature": 60.0}, "a servo is at 60 degrees Celsius"),
+        ({"battery_voltage": 24.5}, "the battery is at 24.5 V"),
+    ],
+)
+def test_a_warning_is_a_whole_sentence_and_never_becomes_a_hold(changes: dict[str, object], sentence: str) -> None:
+    supervisor = SafetySupervisor()
+    for _ in range(100):
+        result = supervisor.step(dataclasses.replace(HEALTHY, **changes), 1.0)
+        assert (result.action, result.warnings) == (SafetyAction.ALLOW, (sentence,))
+
+
+def test_what_ends_a_long_hold_is_said() -> None:
+    supervisor = SafetySupervisor()
+    silent = dataclasses.replace(HEALTHY, operator_silence=inf)
+    assert [supervisor.step(silent, 1.0) for _ in range(61)][-1].reasons[0] == "held for 60 s"
