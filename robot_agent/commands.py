@@ -16,12 +16,13 @@ import numpy as np
 
 from robot_agent.adaptation import ParameterOverrides
 from robot_agent.authority import Authority
+from robot_agent.cruise import Cruise
 from robot_agent.leg_desk import LegDesk
 from robot_agent.mission import Mission
 from robot_agent.motion_desk import MotionDesk
 from robot_agent.orders import Orders
 from weaver_shared.config.command import CommandLimits
-from weaver_shared.errors import WeaverError
+from weaver_shared.errors import InputError, WeaverError
 from weaver_shared.messages import (
     Answer,
     Command,
@@ -64,6 +65,7 @@ class CommandDesk:
         self._authority = Authority()
         self._mission = Mission(self._limits)
         self._motion = MotionDesk(robot)
+        self._cruise = Cruise(self._limits)
         self._legs = LegDesk(robot, robot.locomotion)
         self._situation = Situation(
             stamp_ns=0, robot_xy=(0.0, 0.0), mode="OFF", settled=True, stand_blockers=("starting",)
@@ -88,6 +90,8 @@ class CommandDesk:
             CommandName.SET_OVERRIDE: self._set_override,
             CommandName.CLEAR_OVERRIDE: self._clear_override,
             CommandName.SET_GAIT: self._set_gait,
+            CommandName.START_CRUISE: self._moving(self._start_cruise),
+            CommandName.STOP_CRUISE: self._stop_cruise,
             CommandName.SET_START_UP: self._moving(self._motion.set_start_up),
             CommandName.SET_POSE: self._moving(self._motion.set_pose),
             CommandName.CLEAR_POSE: self._moving(self._motion.clear_pose),
@@ -122,6 +126,8 @@ class CommandDesk:
             theirs = frame.operator == self._authority.holder and frame.lease_epoch == self._authority.epoch
             if theirs and fresh and all(isfinite(value) for value in values):
                 self._teleop = frame
+                if frame.dead_man:
+                    self._cruise.stop()  # a hand on the stick takes over
                 self._teleop_sequence = frame.sequence
                 self._teleop_heard_ns = self._now_ns()
 
@@ -141,6 +147,8 @@ class CommandDesk:
             silence = self._authority.silence(now)
             if not isfinite(silence):
                 self._mission.pause()
+                self._cruise.stop()
+            steered = self._teleop_velocity(now)
             return Orders(
                 stop_level=self._stop_level,
                 stand=self._stand,
@@ -150,7 +158,7 @@ class CommandDesk:
                 mission_active=self._mission.phase == "active",
                 waypoints=self._mission.waypoints,
                 mission_serial=self._mission.serial,
-                teleop_velocity=self._teleop_velocity(now),
+                teleop_velocity=steered if steered is not None else self._cruise.velocity(self._situation.stamp_ns),
                 posing=self._motion.posing,
                 legs=self._legs.orders,
                 in_sequence=self._motion.in_sequence,
@@ -192,6 +200,7 @@ class CommandDesk:
         """Safety makes the robot sit: standing up again needs a new command."""
         with self._lock:
             self._stand = False
+            self._cruise.stop()
             self._legs.clear()
             self._mission.pause()
 
@@ -226,6 +235,8 @@ class CommandDesk:
                 names.add(CommandName.START_MISSION)
             if self._mission.phase == "active":
                 names.add(CommandName.PAUSE_MISSION)
+            elif mode in ("STAND", "WALK"):
+                names |= {CommandName.START_CRUISE, CommandName.STOP_CRUISE}
             if self._mission.phase != "empty":
                 names.add(CommandName.CLEAR_MISSION)
             return tuple(sorted(names))
@@ -238,6 +249,7 @@ class CommandDesk:
     def _release_control(self, _: Command) -> Answer:
         self._authority.release()
         self._teleop = None
+        self._cruise.stop()
         self._mission.pause()
         return self._accept()
 
@@ -246,6 +258,7 @@ class CommandDesk:
         self._stop_level = "cut" if cut else "settle"
         self._stand = False
         self._teleop = None
+        self._cruise.stop()
         self._legs.clear()
         self._mission.pause()
         return self._accept()
@@ -272,6 +285,7 @@ class CommandDesk:
         except WeaverError as error:
             return self._refuse(str(error))
         self._mission.pause()
+        self._cruise.stop()
         self._legs.clear()
         self._stand = False
         return self._accept()
@@ -288,7 +302,10 @@ class CommandDesk:
         if self._legs.orders:
             return self._refuse("legs are lifted; lower them before walking")
         refusal = self._mission.start()
-        return self._refuse(refusal) if refusal else self._accept()
+        if refusal:
+            return self._refuse(refusal)
+        self._cruise.stop()
+        return self._accept()
 
     def _pause_mission(self, _: Command) -> Answer:
         self._mission.pause()
@@ -331,6 +348,19 @@ class CommandDesk:
                 return self._refuse(str(error))
 
         return handle
+
+    def _start_cruise(self, command: Command) -> float:
+        if self._situation.mode not in ("STAND", "WALK"):
+            raise InputError(f"the robot must stand before it walks; it is in {self._situation.mode}")
+        if self._mission.phase == "active":
+            raise InputError("a mission is being walked; pause it first")
+        if self._legs.orders:
+            raise InputError("legs are lifted; lower them before walking")
+        return self._cruise.start(command, self._teleop_velocity(self._now_ns()), self._situation.stamp_ns)
+
+    def _stop_cruise(self, _: Command) -> Answer:
+        self._cruise.stop()
+        return self._accept()
 
     def _teleop_velocity(self, now_ns: int) -> np.ndarray | None:
         frame = self._teleop

@@ -12,6 +12,7 @@ class CommandLimits(BaseModel):
     waypoint_count: int = 100
     teleop_silence: float = 0.3
     override_seconds: float = 3600.0
+    cruise_seconds: float = 600.0
     teleop_forward: float = 0.25  # m/s at full stick
     teleop_left: float = 0.10
     teleop_turn: float = 0.5  # rad/s

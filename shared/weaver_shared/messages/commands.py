@@ -21,6 +21,8 @@ class CommandName(StrEnum):
     SET_OVERRIDE = "set_override"  # name, value, seconds
     CLEAR_OVERRIDE = "clear_override"  # name
     SET_GAIT = "set_gait"  # name
+    START_CRUISE = "start_cruise"  # name: forward, left (m/s), turn (rad/s), value; or stick: as it is now; seconds
+    STOP_CRUISE = "stop_cruise"
     SET_START_UP = "set_start_up"  # name: direct, sequence; how to stand up and sit down
     SET_POSE = "set_pose"  # name: x, y, z (m), roll, pitch, yaw (rad); value
     CLEAR_POSE = "clear_pose"  # name of one axis, or none for all
