@@ -28,6 +28,7 @@ from weaver_shared.messages import (
     Proprioception,
     RoutePlan,
     SafetyAction,
+    Severity,
     StereoFrame,
     TeleopFrame,
 )
@@ -126,6 +127,8 @@ class WalkLoop:
                 lift_margins=tick.walk.lift_margins,
             )
         )
+        for text in tick.walk.events:
+            self.desk.note(Severity.WARNING, text)
         self._telemetry.publish(tick, sensed, self.desk)
         self._ticks += 1
         if self._ticks % HEALTH_TICKS == 0:

@@ -203,6 +203,7 @@ def _locomotion_state(tick: WalkTick) -> LocomotionState:
         ground_residual=walk.ground_residual,
         pose_position=walk.unposed_from_body.position,
         pose_rpy=rpy_from_rotation(walk.unposed_from_body.rotation),
+        slipping=walk.slipping,
         leg_stages=walk.leg_stages,
         lift_margins=np.array(walk.lift_margins),
     )

@@ -48,6 +48,8 @@ class WalkOutput:
     ground_plane: Array  # (3,) a, b, c of z = a x + b y + c through the feet, in the un-posed body
     ground_residual: float  # m rms of the feet about it
     unposed_from_body: Pose  # how the body is posed
+    slipping: NDArray[np.bool_]  # (legs,)
+    events: tuple[str, ...]  # slips and stumbles of this tick
     leg_stages: tuple[str, ...]  # supporting, lifting, held or lowering
     lift_margins: tuple[float, ...]  # m of static margin without each leg; empty while the robot does not stand
     posture: str

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from robot_agent.kinematics import LegModel
 from robot_agent.locomotion.folding import Folding
+from robot_agent.locomotion.footing import Footing
 from robot_agent.locomotion.legs_tick import (
     believe,
     foot_tick,
@@ -73,6 +74,7 @@ class Walker:
         self._up = state.cut("senses", "up")
         self._manipulation = Manipulation(robot.leg_names, state, config, dt)
         self._lift_margins: tuple[float, ...] = ()
+        self._footing = Footing(robot.leg_names, state, config.footing, dt)
         self._ticks = 0
         self._stability = StabilityWatch(config.stability, dt)
         self._posture = "sitting"
@@ -118,7 +120,12 @@ class Walker:
             self._velocity[:] = 0.0
         self._act(sensed)
         self._ticks += 1
-        return self._answer(reasons + self._poser.reasons + self._manipulation.reasons)
+        events: tuple[str, ...] = ()
+        if upright and self._config.feel_ground:
+            events = self._footing.step()
+        else:
+            self._footing.clear()
+        return self._answer(reasons + self._poser.reasons + self._manipulation.reasons, events)
 
     def _take(self, sensed: WalkInput) -> tuple[str, ...]:
         """Write a tick's readings and orders into the memory; what has the wrong size or kind counts as missing."""
@@ -314,7 +321,7 @@ class Walker:
         else:
             self._posture = "sitting"
 
-    def _answer(self, reasons: tuple[str, ...]) -> WalkOutput:
+    def _answer(self, reasons: tuple[str, ...], events: tuple[str, ...]) -> WalkOutput:
         limits, static, energy, residual = self._limits.item()
         return WalkOutput(
             joint_position=self._target.copy(),
@@ -329,6 +336,8 @@ class Walker:
             ground_plane=self._plane.copy(),
             ground_residual=residual,
             unposed_from_body=self._poser.pose,
+            slipping=self._footing.slipping,
+            events=events,
             leg_stages=self._manipulation.stages,
             lift_margins=self._lift_margins,
             posture=self._posture,

@@ -132,6 +132,17 @@ class ManipulationConfig(BaseModel):
     joint_speed: Positive = 0.5  # rad/s
 
 
+class FootingConfig(BaseModel):
+    """What counts as a slip or a stumble."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    slip_distance: Positive = 0.010  # m a standing foot moves against the others
+    slip_time: Positive = 0.5  # s in which earlier slip is forgotten
+    settle_time: Positive = 0.12  # s after touch-down that a foot may move
+    stumble_window: tuple[Positive, Positive] = (0.25, 0.45)  # of the swing; later contacts are early landings
+
+
 class LocomotionConfig(BaseModel):
     """Everything the walker can be tuned with; distances m, times s."""
 
@@ -143,6 +154,7 @@ class LocomotionConfig(BaseModel):
     stability: StabilityConfig = StabilityConfig()
     posing: PosingConfig = PosingConfig()
     manipulation: ManipulationConfig = ManipulationConfig()
+    footing: FootingConfig = FootingConfig()
     largest_stride: Positive = 0.20  # paper: 0.35 m/s at 1 Hz
     largest_speed: Positive = 0.35  # m/s (paper)
     stop_time: Positive = 0.4  # s from the largest velocity to zero

@@ -119,6 +119,7 @@ class LocomotionState:
     ground_residual: float  # m rms of the feet about that plane
     pose_position: Array  # (3,) m of the posed body against its un-posed place
     pose_rpy: Array  # (3,) rad, roll, pitch, yaw of the same
+    slipping: NDArray[np.bool_]  # (legs,) feet that slide against the others
     leg_stages: tuple[str, ...]  # of each leg: "supporting", or in hand "lifting", "held", "lowering"
     lift_margins: Array  # (legs,) m of static margin if that leg were lifted; empty while the robot does not stand
 
