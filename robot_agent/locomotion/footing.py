@@ -6,18 +6,21 @@ touched in the middle of its swing has stumbled.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.feet import STAND, SWING
-from robot_agent.locomotion.walk_state import WalkState
+from robot_agent.locomotion.walk_state import LEGS, WalkState
 from weaver_shared.config.locomotion import FootingConfig
 
-Array = NDArray[np.float64]
+Array = NDArray[Any]
+Flags = NDArray[np.bool_]
 
 EVERY = 4
-"""Ticks from one look to the next: slips are slow, and a look costs a tenth of a tick."""
+"""Ticks from one look to the next: slips are slow."""
 
 
 class Footing:
@@ -25,59 +28,62 @@ class Footing:
 
     def __init__(self, names: tuple[str, ...], state: WalkState, config: FootingConfig, dt: float) -> None:
         self._names = names
-        self._config = config
-        self._dt = dt * EVERY
-        self._feet, self._contact = state.cut("senses", "unposed_feet"), state.cut("senses", "contact")
-        self._mode, self._phase = state.cut("feet", "mode"), state.cut("gait", "leg_phase")
-        self._gait = state.record["gait"]
+        self._memory = state.memory
+        dt *= EVERY
+        keep = float(np.exp(-dt / config.slip_time))
+        self._settings = np.array([dt, keep, config.settle_time, config.slip_distance, *config.stumble_window])
         legs = len(names)
         self._last = np.zeros((legs, 3))
         self._stood = np.zeros(legs)  # s each foot has been on the ground
         self._slipped = np.zeros((legs, 2))  # m, forgotten again over `slip_time`
-        self._told_slip = np.zeros(legs, dtype=np.bool_)
-        self._told_stumble = np.zeros(legs, dtype=np.bool_)
+        self._told = np.zeros((legs, 2), dtype=np.bool_)  # slip, stumble
+        self.slipping = np.zeros(legs, dtype=np.bool_)  # feet that slide now
         self._ticks = 0
 
     def clear(self) -> None:
-        self._stood[:] = 0.0
-        self._slipped[:] = 0.0
-        self._told_slip[:] = False
-        self._told_stumble[:] = False
-
-    @property
-    def slipping(self) -> NDArray[np.bool_]:
-        """Legs (legs,) whose feet slide now."""
-        return np.hypot(self._slipped[:, 0], self._slipped[:, 1]) > self._config.slip_distance
+        for array in (self._stood, self._slipped, self._told, self.slipping):
+            array[:] = 0
 
     def step(self) -> tuple[str, ...]:
         """What has happened since the last tick, in words."""
         self._ticks += 1
         if self._ticks % EVERY:
             return ()
-        self._watch_standing()
-        return (*self._slips(), *self._stumbles())
+        bits = look(self._memory, self._settings, self._last, self._stood, self._slipped, self._told, self.slipping)
+        if not bits:
+            return ()
+        legs = range(len(self._names))
+        slips = tuple(f"leg {self._names[leg]} slips" for leg in legs if bits >> leg & 1)
+        return slips + tuple(f"leg {self._names[leg]} stumbles" for leg in legs if bits >> (leg + LEGS) & 1)
 
-    def _watch_standing(self) -> None:
-        config = self._config
-        keep = np.exp(-self._dt / config.slip_time)
-        standing = (self._mode == STAND) & (self._contact != 0)
-        self._stood = np.where(standing, self._stood + self._dt, 0.0)
-        slide(self._feet, self._last, self._stood > config.settle_time, float(keep), self._slipped)
-        self._last[:] = self._feet
 
-    def _slips(self) -> tuple[str, ...]:
-        fresh = self.slipping & ~self._told_slip
-        self._told_slip = (self._told_slip & (self._mode == STAND)) | fresh
-        return tuple(f"leg {self._names[leg]} slips" for leg in np.flatnonzero(fresh))
-
-    def _stumbles(self) -> tuple[str, ...]:
-        progress = self._phase / (1.0 - float(self._gait["duty"]))
-        first, last = self._config.stumble_window
-        swinging = self._mode == SWING
-        met = swinging & (self._contact != 0) & (progress > first) & (progress < last)
-        fresh = met & ~self._told_stumble
-        self._told_stumble = (self._told_stumble & swinging) | fresh
-        return tuple(f"leg {self._names[leg]} stumbles" for leg in np.flatnonzero(fresh))
+@kernel
+def look(
+    memory: Array, settings: Array, last: Array, stood: Array, slipped: Array, told: Flags, slipping: Flags
+) -> int:
+    """Bits of the legs that slip (from bit 0) and stumble (from bit `LEGS`) and have not been told of yet."""
+    walk = memory[0]
+    dt, keep, settle_time, slip_distance, first, end = settings
+    feet, contact, legs, bits = walk.senses.unposed_feet, walk.senses.contact, walk.model.legs, 0
+    standing = np.empty(legs, dtype=np.bool_)
+    for leg in range(legs):
+        on_ground = walk.feet.mode[leg] == STAND and contact[leg] != 0
+        stood[leg] = stood[leg] + dt if on_ground else 0.0
+        standing[leg] = stood[leg] > settle_time
+    slide(feet[:legs], last, standing, keep, slipped)
+    for leg in range(legs):
+        last[leg, :] = feet[leg]
+        slipping[leg] = np.hypot(slipped[leg, 0], slipped[leg, 1]) > slip_distance
+        swinging = walk.feet.mode[leg] == SWING
+        progress = walk.gait.leg_phase[leg] / (1.0 - walk.gait.duty)
+        stumbling = swinging and contact[leg] != 0 and first < progress < end
+        if slipping[leg] and not told[leg, 0]:
+            bits |= 1 << leg
+        if stumbling and not told[leg, 1]:
+            bits |= 1 << (leg + LEGS)
+        told[leg, 0] = (told[leg, 0] and walk.feet.mode[leg] == STAND) or slipping[leg]
+        told[leg, 1] = (told[leg, 1] and swinging) or stumbling
+    return bits
 
 
 @kernel

@@ -336,7 +336,7 @@ class Walker:
             ground_plane=self._plane.copy(),
             ground_residual=residual,
             unposed_from_body=self._poser.pose,
-            slipping=self._footing.slipping,
+            slipping=self._footing.slipping.copy(),
             events=events,
             leg_stages=self._manipulation.stages,
             lift_margins=self._lift_margins,
