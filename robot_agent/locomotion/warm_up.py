@@ -7,6 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from robot_agent.locomotion import openshc
+from robot_agent.locomotion.leg_order import LegOrder
+from robot_agent.locomotion.posing.order import PosingOrder
 from robot_agent.locomotion.walk_tick import WalkInput
 from robot_agent.locomotion.walker import Walker
 from weaver_shared.config.locomotion import LocomotionConfig
@@ -22,6 +24,35 @@ def warm_up(robot: RobotDescription | None = None) -> None:
         tick = walking_tick(robot, LocomotionConfig(feel_ground=feel_ground), frequency=1.0)
         for _ in range(120):
             tick()
+    pose_and_lift(robot)
+
+
+def pose_and_lift(robot: RobotDescription) -> None:
+    """Stand posed with a leg lifted, walk posed, sit down packed and stand up again: what walking leaves cold."""
+    walker = Walker(robot)
+    joints = walker.begin_standing()
+    leg, posed = LegOrder(leg=0), PosingOrder(manual=(0.0, 0.0, 0.01, 0.02, 0.0, 0.0), automatic=True, levelling=True)
+    for velocity, stand, legs, ticks in ((0.0, True, (leg,), 150), (0.05, True, (), 400), (0.0, False, (), 1500),
+                                         (0.0, True, (), 20)):  # fmt: skip
+        for _ in range(ticks):
+            sensed = WalkInput(
+                stamp_ns=0,
+                velocity=np.array([velocity, 0.0, 0.0]),
+                parameters=GaitParameters(
+                    stamp_ns=0, virtual_stiffness=1000.0, stride_frequency=1.0, stride_height=0.05, confidence=1.0
+                ),
+                gait=robot.gaits[0],
+                stand=stand,
+                joint_position=joints,
+                joint_torque=np.full(robot.joint_count, 0.1),
+                foot_contact=np.ones(robot.leg_count, dtype=np.bool_),
+                gravity_in_body=np.array([0.0, 0.0, -1.0]),
+                posing=posed,
+                legs=legs,
+                pack=True,
+                in_sequence=True,
+            )
+            joints = walker.step(sensed).joint_position
 
 
 def walking_tick(
