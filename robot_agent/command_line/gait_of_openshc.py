@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.locomotion.openshc.configuration import Configuration
+from robot_agent.locomotion.openshc.description import configuration_from
 from robot_agent.locomotion.openshc.reading import read_configuration, with_settings
 from robot_agent.locomotion.openshc.run import IDLE_TICKS, run
 from robot_agent.locomotion.openshc.script import COMMANDS, Event, events_of
@@ -18,6 +19,7 @@ from robot_agent.locomotion.openshc.shipped import ROBOTS, shipped
 from robot_agent.locomotion.openshc.table import BODY_COLUMNS, body_row, leg_rows
 from robot_agent.locomotion.trajectory_table import columns
 from weaver_shared.errors import ConfigurationError, InputError
+from weaver_shared.robots import load_robot
 
 OWN = ("stop_after", "script", "settings", "start_up", "body")
 FILES = (".yaml", ".yml", ".json")
@@ -33,7 +35,7 @@ def add_options(parser: argparse.ArgumentParser, version: str) -> None:
         "--compat",
         metavar="VERSION",
         help=f"{version}: reproduce OpenSHC for --robot {', '.join(ROBOTS)}, or a robot's own OpenSHC files "
-        "(.yaml or .json, separated by commas), with one of its gaits",
+        "(.yaml or .json, separated by commas) or an imported .toml, with one of its gaits",
     )
     group.add_argument("--stop-after", type=int, metavar="TICKS", help="take the velocity back TICKS after giving it")
     group.add_argument("--script", metavar="FILE", help="told instead of --velocity; - is the standard input")
@@ -78,8 +80,11 @@ def write(options: argparse.Namespace, velocity: NDArray[np.float64], legs: Text
 def _description(options: argparse.Namespace) -> Configuration:
     """The robot with its gait and whatever else is set."""
     paths = [Path(part) for part in options.robot.split(",")]
-    own = all(path.suffix in FILES for path in paths)
-    description = read_configuration(paths) if own else shipped(options.robot)
+    if options.robot.endswith(".toml"):
+        description = configuration_from(load_robot(options.robot))
+    else:
+        own = all(path.suffix in FILES for path in paths)
+        description = read_configuration(paths) if own else shipped(options.robot)
     gait = options.gait
     if gait is not None:
         gait = gait if gait in description.gaits else f"{gait}_gait"

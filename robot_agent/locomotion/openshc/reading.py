@@ -48,7 +48,7 @@ def configuration_of(sections: Mapping[str, Mapping[str, Any]]) -> Configuration
     try:
         return Configuration.model_validate(fields)
     except ValidationError as error:
-        raise ConfigurationError(_sentence(error)) from error
+        raise ConfigurationError(_sentence(error, fields)) from error
 
 
 def sections_of(configuration: Configuration) -> dict[str, Any]:
@@ -82,7 +82,7 @@ def with_settings(configuration: Configuration, settings: Iterable[str]) -> Conf
     try:
         return Configuration.model_validate(plain)
     except ValidationError as error:
-        raise ConfigurationError(f"--set: {_sentence(error)}") from error
+        raise ConfigurationError(f"--set: {_sentence(error, plain)}") from error
 
 
 def _assign(plain: dict[str, Any], path: str, value: Any) -> None:
@@ -193,8 +193,21 @@ def _without_empty(pose: dict[str, Any]) -> dict[str, Any]:
     return {key: value for key, value in pose.items() if key != "negation_transition_ratio" or value}
 
 
-def _sentence(error: ValidationError) -> str:
-    """Key, complaint and what was found of the first error; legs are named by their own keys."""
+def _sentence(error: ValidationError, fields: Mapping[str, Any]) -> str:
+    """Key as OpenSHC writes it, complaint and what was found, of the first error."""
     first = error.errors()[0]
-    where = ".".join(str(part) for part in first["loc"]) or "parameters"
-    return f"{where}: {first['msg']} (found {first['input']!r:.80})"
+    complaint = str(first["ctx"]["error"]) if first["type"] == "value_error" else first["msg"]
+    return f"{_key_of(first['loc'], fields)}: {complaint} (found {first['input']!r:.80})"
+
+
+def _key_of(place: tuple[int | str, ...], fields: Mapping[str, Any]) -> str:
+    match place:
+        case ("legs", int(leg), "joints", int(joint), *rest):
+            name = f"{fields['leg_id'][leg]}_{fields['joint_id'][joint]}_joint_parameters"
+        case ("legs", int(leg), "links", int(link), *rest):
+            name = f"{fields['leg_id'][leg]}_{fields['link_id'][link]}_link_parameters"
+        case ("legs", int(leg), "stance", *rest):
+            name = f"{fields['leg_id'][leg]}_stance_position"
+        case _:
+            name, rest = "", list(place)
+    return ".".join(str(part) for part in (name, *rest) if part != "") or "parameters"

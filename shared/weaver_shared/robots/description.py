@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,6 +55,7 @@ class RobotDescription(Part):
     power: Power
     locomotion: LocomotionConfig = LocomotionConfig()
     adaptation: AdaptationConfig = AdaptationConfig()
+    openshc: dict[str, Any] = Field(default_factory=dict)  # what an imported robot was imported from
 
     @model_validator(mode="after")
     def _consistent(self) -> RobotDescription:
