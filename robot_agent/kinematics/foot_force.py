@@ -9,7 +9,7 @@ from robot_agent.kinematics.compiled import kernel
 Array = NDArray[np.float64]
 
 GRAVITY = 9.80665
-DAMPING = 1e-4
+DAMPING = 1e-5
 """m^2, keeps a stretched leg from answering with endless forces."""
 
 

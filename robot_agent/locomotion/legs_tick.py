@@ -10,7 +10,7 @@ from robot_agent.locomotion.feet import REACH, STAND, SWING
 from robot_agent.locomotion.gait_parameters import follow_parameters
 from robot_agent.locomotion.reasons import SERVO_SPEED
 from robot_agent.locomotion.senses import measure, sense
-from robot_agent.locomotion.servo_lead import lead_servos
+from robot_agent.locomotion.servo_lead import target_servos
 from robot_agent.locomotion.stability import static_margin
 from robot_agent.locomotion.stepper import step
 from robot_agent.locomotion.walk_state import Array, Record
@@ -41,7 +41,9 @@ def believe(memory: Array) -> None:
     walk = memory[0]
     for leg in range(walk.model.legs):
         for i in range(walk.model.joints):
-            walk.joint.previous[leg, i] = walk.senses.joint_position[leg, i] = walk.joint.wanted[leg, i]
+            angle = walk.joint.wanted[leg, i]
+            walk.joint.previous[leg, i] = walk.senses.joint_position[leg, i] = angle
+            walk.joint.target[leg * walk.model.joints + i] = angle
         walk.senses.contact_left[leg] = walk.settings.foothold.contact_hold
         walk.senses.contact[leg] = True
     measure(walk)
@@ -73,7 +75,7 @@ def place_tick(memory: Array) -> None:
     walk = memory[0]
     place_feet(walk)
     reach_feet(walk)
-    target_servos(walk, True)
+    follow_angles(walk, True)
 
 
 @kernel
@@ -82,7 +84,7 @@ def foot_tick(memory: Array) -> None:
     walk = memory[0]
     hold_angles(walk)
     reach_feet(walk)
-    target_servos(walk, True)
+    follow_angles(walk, True)
 
 
 @kernel
@@ -93,7 +95,7 @@ def joint_tick(memory: Array, angles: Array, lead: bool) -> None:
     for leg in range(angles.shape[0]):
         for i in range(angles.shape[1]):
             walk.joint.wanted[leg, i] = angles[leg, i]
-    target_servos(walk, lead)
+    follow_angles(walk, lead)
 
 
 @kernel
@@ -154,8 +156,8 @@ def reach_feet(walk: Record) -> None:
 
 
 @kernel
-def target_servos(walk: Record, lead: bool) -> None:
-    """Keep the speed limits, legs on the ground together, and lead the servos by what they lack."""
+def follow_angles(walk: Record, lead: bool) -> None:
+    """Keep the speed limits, legs on the ground together, and pass the angles on to the servos."""
     model, joint, legs = walk.model, walk.joint, walk.model.legs
     together = np.empty(legs, dtype=np.bool_)
     for leg in range(legs):
@@ -164,10 +166,18 @@ def target_servos(walk: Record, lead: bool) -> None:
     factor = limit_joint_speed(joint.previous, joint.wanted, speed, together, model.dt)
     if factor < 1.0:
         walk.gait.pace = min(walk.gait.pace, max(factor, SLOWEST_PACE))  # the gait takes its time
+    if factor < 1.0 or at_largest_speed(walk):
         walk.answer.reasons |= SERVO_SPEED
-    if lead and walk.settings.compensate_servos:
-        lead_servos(walk)
-        return
-    for leg in range(legs):
+    target_servos(walk, lead)
+
+
+@kernel
+def at_largest_speed(walk: Record) -> bool:
+    """Whether any joint turns as fast as it may: a swinging leg then lags behind its path."""
+    model, joint = walk.model, walk.joint
+    for leg in range(model.legs):
         for i in range(model.joints):
-            joint.target[leg * model.joints + i] = joint.wanted[leg, i]
+            step = abs(joint.wanted[leg, i] - joint.previous[leg, i])
+            if step > (1.0 - 1e-9) * model.speed_limit[i] * model.dt:
+                return True
+    return False

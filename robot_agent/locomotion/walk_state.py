@@ -33,6 +33,7 @@ MODEL = np.dtype(
         ("hip_axes", F, (LEGS, 3, 3)),
         ("link_mass", F, (JOINTS,)),  # kg
         ("speed_limit", F, (JOINTS,)),  # rad/s
+        ("target_step", F, (JOINTS,)),  # rad, the most a servo turns in a tick without load
         ("servo_stiffness", F, (JOINTS,)),  # N m/rad
         ("servo_lag", F, (JOINTS,)),  # s, with the tick that the bus takes
         ("trunk_mass", F),  # kg
@@ -140,8 +141,8 @@ LOAD = np.dtype(
         ("load", F, (LEGS,)),  # N expected along up
         ("surplus", F, (LEGS,)),  # N felt beyond it
         ("offset", F, (LEGS, 2)),  # of the impedance: m along up and m/s
-        ("step", F, (2, 3)),  # its discrete form for `stiffness`
-        ("stiffness", F),
+        ("step", F, (LEGS, 2, 3)),  # its discrete form for `stiffness`
+        ("stiffness", F, (LEGS,)),  # N/m of each leg
     ]
 )
 

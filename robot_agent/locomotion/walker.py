@@ -91,6 +91,7 @@ class Walker:
         angles = np.asarray(joint_position, dtype=np.float64).reshape(self._angles.shape)
         angles = np.where(np.isfinite(angles), angles, self._angles)
         np.clip(angles, self._model.limits[:, 0], self._model.limits[:, 1], out=self._angles)
+        self._target[:] = self._angles.ravel()
         self._posture = "sitting"
         self._folding = self._foot_glide = None
         self._poser.clear()

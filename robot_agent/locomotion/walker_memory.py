@@ -32,6 +32,7 @@ def walker_memory(robot: RobotDescription, model: LegModel, config: LocomotionCo
         model, stance, model.reach * np.array(GROUND_HEIGHTS), 0.5 * config.largest_stride + SPARE * model.reach
     )
     record["servo_lag"][: model.joints_per_leg] += dt  # the bus brings a target one tick later
+    record["target_step"][: model.joints_per_leg] = [robot.servos[j.servo].no_load_speed * dt for j in robot.joints]
     record["foot_depth"] = -stance[:, 2].mean()
     record["down_limit"] = stance[:, 2].min() - LOWEST_FOOTHOLD * model.reach
     record["up_limit"] = stance[:, 2].max() + HIGHEST_FOOTHOLD * model.reach

@@ -20,6 +20,8 @@ class AdmittanceConfig(BaseModel):
     largest_force: Positive = 80.0  # N, of the error that is fed in
     force_time: Positive = 0.02  # s, low-pass on the force
     stiffness_bounds: tuple[Positive, Positive] = (200.0, 5000.0)  # N/m
+    dead_band: Annotated[float, Field(ge=0.0)] = 0.0  # N of surplus force that moves nothing
+    neighbour_stiffness: Annotated[float, Field(ge=1.0)] = 1.0  # times, of a leg whose neighbour is at its apex
 
 
 class PostureConfig(BaseModel):

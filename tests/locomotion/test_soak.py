@@ -1,0 +1,52 @@
+"""A short soak in which nothing may go wrong, and proof that it would be noticed."""
+
+import numpy as np
+import pytest
+
+from robot_agent.locomotion import Walker
+from robot_agent.locomotion.soak import soak
+from robot_agent.locomotion.soak.robots import random_robot
+from weaver_shared.robots import robot_names
+
+
+def test_random_lives_of_all_robots_violate_nothing():
+    result = soak(2 * 400 * len(robot_names()), seed=3, life=400)
+    assert result.violations == ()
+    assert set(robot_names()) <= set(result.ticks_by_robot)
+    assert {"rising", "standing", "walking", "lowering"} <= set(result.ticks_by_posture)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda joints: joints + np.nan, "not finite"),
+        (lambda joints: joints + 9.0, "beyond its limit"),
+        (lambda joints: np.where(np.abs(joints) < 0.05, 0.3, joints), "more than its servo can"),
+    ],
+)
+def test_a_walker_gone_wrong_is_noticed(change, said, monkeypatch):
+    honest = Walker.step
+
+    def step(self, sensed):
+        out = honest(self, sensed)
+        object.__setattr__(out, "joint_position", change(out.joint_position))
+        return out
+
+    monkeypatch.setattr(Walker, "step", step)
+    violations = soak(200, seed=3, life=100).violations
+    assert any(said in violation.what for violation in violations)
+
+
+def test_a_raised_exception_is_noticed(monkeypatch):
+    def step(self, sensed):
+        raise ZeroDivisionError("nothing to divide by")
+
+    monkeypatch.setattr(Walker, "step", step)
+    assert soak(1, seed=3, life=10).violations[0].what == "raised ZeroDivisionError: nothing to divide by"
+
+
+def test_random_robots_are_of_every_kind():
+    robots = [random_robot(np.random.default_rng(seed), seed) for seed in range(80)]
+    assert {robot.leg_count for robot in robots} == set(range(3, 9))
+    assert {robot.joints_per_leg for robot in robots} == set(range(3, 7))
+    assert any(leg.mirrored for robot in robots for leg in robot.legs)
