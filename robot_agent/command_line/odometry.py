@@ -16,8 +16,10 @@ import numpy as np
 from tqdm import tqdm
 
 from robot_agent.evaluation.asl_recording import AslRecording, open_asl
+from robot_agent.evaluation.track_recording import TrackRecording, open_tracks
 from robot_agent.evaluation.trajectory import Trajectory, evaluate, read_tum, write_tum
-from robot_agent.odometry import StereoInertialOdometry, warm_up
+from robot_agent.odometry import RecordedTracks, StereoInertialOdometry, warm_up
+from weaver_shared.config.odometry import FailureConfig, OdometryConfig, WindowConfig
 from weaver_shared.errors import InputError
 from weaver_shared.messages import OdometryEstimate, OdometryQuality
 from weaver_shared.transforms import Pose
@@ -26,10 +28,12 @@ from weaver_shared.transforms import Pose
 def main(arguments: list[str]) -> int:
     options = _parser().parse_args(arguments)
     cv2.setNumThreads(1)
-    recording = open_asl(options.folder)
-    truth = read_tum(options.groundtruth) if options.groundtruth else recording.truth
+    recording, odometry = _tracks(options.tracks) if options.tracks else _pictures(options.folder)
+    truth = read_tum(options.groundtruth) if options.groundtruth else None
+    if truth is None and isinstance(recording, AslRecording):
+        truth = recording.truth
     warm_up()
-    estimates, milliseconds = _run(recording, quiet=options.quiet)
+    estimates, milliseconds = _run(recording, odometry, quiet=options.quiet)
     trajectory = Trajectory.of([e.stamp_ns for e in estimates], [e.world_from_body for e in estimates])
     if options.output:
         try:
@@ -49,7 +53,9 @@ def _parser() -> argparse.ArgumentParser:
         prog="weaver odometry",
         description="Stereo-inertial odometry over a recording; lengths in m, angles in degrees.",
     )
-    parser.add_argument("folder", metavar="DIR", type=Path, help="EuRoC/ASL folder: mav0/cam0, cam1, imu0")
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument("folder", metavar="DIR", type=Path, nargs="?", help="EuRoC/ASL folder: mav0/cam0, cam1, imu0")
+    source.add_argument("--tracks", metavar="FILE", type=Path, help="CSV of one camera's feature tracks and inertia")
     parser.add_argument("--groundtruth", metavar="FILE", type=Path, help="true poses in TUM format, s and m")
     parser.add_argument("--output", metavar="FILE", type=Path, help="write the trajectory in TUM format, s and m")
     parser.add_argument("--quiet", action="store_true", help="no progress bar")
@@ -57,13 +63,40 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _run(recording: AslRecording, *, quiet: bool) -> tuple[list[OdometryEstimate], list[float]]:
+SPARSE = OdometryConfig(
+    window=WindowConfig(keyframes=12, iterations=3, pixel_sigma=1.0, gate=8.0),
+    failure=FailureConfig(good_features=15),
+)
+"""For tracks of one eye, twenty a frame and 1.3 px noisy: more keyframes, and observations given up later."""
+
+
+def _pictures(folder: Path) -> tuple[AslRecording, StereoInertialOdometry]:
+    recording = open_asl(folder)
     odometry = StereoInertialOdometry(
         calibration=recording.calibration,
         imu=recording.imu,
         initial=Pose.identity(),
         body_from_imu=recording.body_from_imu,
     )
+    return recording, odometry
+
+
+def _tracks(path: Path) -> tuple[TrackRecording, StereoInertialOdometry]:
+    recording = open_tracks(path)
+    odometry = StereoInertialOdometry(
+        calibration=recording.calibration,
+        imu=recording.imu,
+        initial=Pose.identity(),
+        config=SPARSE,
+        body_from_imu=Pose.identity(),
+        front_end=RecordedTracks(recording.sightings, recording.calibration.left.fx),
+    )
+    return recording, odometry
+
+
+def _run(
+    recording: AslRecording | TrackRecording, odometry: StereoInertialOdometry, *, quiet: bool
+) -> tuple[list[OdometryEstimate], list[float]]:
     estimates: list[OdometryEstimate] = []
     milliseconds: list[float] = []
     for frame, inertia in tqdm(recording, desc="odometry", unit=" frames", file=sys.stderr, disable=quiet):

@@ -45,14 +45,9 @@ class AslRecording:
 
     def __iter__(self) -> Iterator[tuple[StereoFrame, ImuBatch]]:
         """Each pair with the inertia up to it; an eye that is missing is an empty picture."""
-        begin = 0
-        for sequence, (stamp, left, right) in enumerate(self.pictures):
-            # One sample beyond the picture comes along: it says what happened right up to it.
-            end = min(int(np.searchsorted(self.inertia.stamp_ns, stamp, side="left")) + 1, len(self.inertia.stamp_ns))
-            end = max(begin, end)
-            frame = StereoFrame(stamp_ns=stamp, sequence=sequence, left=_picture(left), right=_picture(right))
-            yield frame, _part(self.inertia, begin, end)
-            begin = end
+        parts = inertia_up_to(self.inertia, [stamp for stamp, _, _ in self.pictures])
+        for sequence, ((stamp, left, right), part) in enumerate(zip(self.pictures, parts, strict=True)):
+            yield StereoFrame(stamp_ns=stamp, sequence=sequence, left=_picture(left), right=_picture(right)), part
 
 
 def open_asl(folder: Path) -> AslRecording:
@@ -77,6 +72,16 @@ def open_asl(folder: Path) -> AslRecording:
         pictures=pictures,
         truth=_truth(folder, root),
     )
+
+
+def inertia_up_to(inertia: ImuBatch, stamps_ns: list[int]) -> Iterator[ImuBatch]:
+    """The samples between consecutive instants; one beyond each comes along: it says what happened right up to it."""
+    begin = 0
+    for stamp in stamps_ns:
+        end = min(int(np.searchsorted(inertia.stamp_ns, stamp, side="left")) + 1, len(inertia.stamp_ns))
+        end = max(begin, end)
+        yield _part(inertia, begin, end)
+        begin = end
 
 
 def _pairs(left: dict[int, Path], right: dict[int, Path]) -> tuple[tuple[int, Path | None, Path | None], ...]:

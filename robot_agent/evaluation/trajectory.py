@@ -33,6 +33,13 @@ class Trajectory:
     def __len__(self) -> int:
         return len(self.stamp_ns)
 
+    def pose_at(self, stamp_ns: int) -> Pose:
+        """Interpolated. Raises InputError outside the trajectory."""
+        _, poses = _interpolate(self, np.array([stamp_ns], dtype=np.int64))
+        if not poses:
+            raise InputError(f"the trajectory has no pose at {stamp_ns * 1e-9:.3f} s")
+        return poses[0]
+
     def rotation(self, index: int) -> Array:
         return rotation_from_wxyz(self.wxyz[index])
 
@@ -69,7 +76,7 @@ def evaluate(estimated: Trajectory, truth: Trajectory, freedom: Freedom = "yaw")
     ate = float(np.sqrt(((aligned.transform(position) - true_position) ** 2).sum(axis=1).mean()))
     first = Pose(rotation=estimated.rotation(indices[0]), position=position[0])
     last = Pose(rotation=estimated.rotation(indices[-1]), position=position[-1])
-    truth_from_world = _same_heading(first, true_poses[0])
+    truth_from_world = same_heading(first, true_poses[0])
     final = truth_from_world @ last
     final_error = float(np.linalg.norm(final.position - true_poses[-1].position))
     length = path_length(true_position)
@@ -128,7 +135,7 @@ def read_tum(path: Path) -> Trajectory:
         raise InputError(f"trajectory {path} is not in TUM format: time tx ty tz qx qy qz qw, 8 numbers a row")
     try:
         table = np.array([[float(x) for x in row[1:]] for row in rows])
-        stamps = np.array([_nanoseconds(row[0]) for row in rows], dtype=np.int64)
+        stamps = np.array([nanoseconds(row[0]) for row in rows], dtype=np.int64)
     except ValueError as error:
         raise InputError(f"trajectory {path} is not in TUM format: {error}") from error
     return Trajectory(stamp_ns=stamps, position=table[:, :3], wxyz=table[:, [6, 3, 4, 5]])
@@ -143,7 +150,7 @@ def write_tum(path: Path, trajectory: Trajectory) -> None:
             file.write(f"{seconds}.{rest:09d} {numbers}\n")
 
 
-def _nanoseconds(text: str) -> int:
+def nanoseconds(text: str) -> int:
     """Exact reading of decimal seconds: a double holds 1.4e9 s only to 0.2 microseconds."""
     seconds, _, fraction = text.partition(".")
     if "e" in text.lower():
@@ -171,7 +178,7 @@ def _interpolate(truth: Trajectory, stamps: NDArray[np.int64]) -> tuple[list[int
     return indices, poses
 
 
-def _same_heading(pose: Pose, truth: Pose) -> Pose:
+def same_heading(pose: Pose, truth: Pose) -> Pose:
     """The turn about the vertical and shift that bring `pose` next to `truth`."""
     between = truth.rotation @ pose.rotation.T
     angle = float(np.arctan2(between[1, 0] - between[0, 1], between[0, 0] + between[1, 1]))

@@ -2,6 +2,7 @@
 
 from robot_agent.odometry.estimator import StereoInertialOdometry
 from robot_agent.odometry.propagator import NavigationState, StatePropagator
+from robot_agent.odometry.recorded_tracks import RecordedTracks
 from robot_agent.odometry.warming import warm_up
 
-__all__ = ["NavigationState", "StatePropagator", "StereoInertialOdometry", "warm_up"]
+__all__ = ["NavigationState", "RecordedTracks", "StatePropagator", "StereoInertialOdometry", "warm_up"]

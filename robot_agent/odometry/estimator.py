@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,8 +26,19 @@ Array = NDArray[np.float64]
 DRIFT_SPEED, DRIFT_ACCELERATION = 0.02, 0.05
 """m/s and m/s^2: how fast the pose's uncertainty grows on inertia alone (velocity and tilt errors after a good fix)."""
 
+SEEN_STILL = 0.7
+"""Share of the flow allowed at rest below which pictures alone say that the body stands."""
+
 STEEP = 0.9
 """A body whose x axis points this far up or down has no heading to keep."""
+
+
+class TrackSource(Protocol):
+    """Whoever follows features: our front end on pictures, or a recording's tracks."""
+
+    def step(self, frame: StereoFrame, left_from_previous: Pose) -> Tracks: ...
+
+    def forget(self, identities: NDArray[np.int64]) -> None: ...
 
 
 class StereoInertialOdometry:
@@ -40,10 +52,12 @@ class StereoInertialOdometry:
         initial: Pose,
         config: OdometryConfig | None = None,
         body_from_imu: Pose | None = None,
+        front_end: TrackSource | None = None,
     ) -> None:
         """`initial` is world_from_body at the start: its position and heading count, its tilt is measured.
 
-        `body_from_imu` replaces the pose of the robot description (for recordings with rotated IMUs).
+        `body_from_imu` replaces the pose of the robot description (for recordings with rotated IMUs);
+        `front_end` replaces our own (for recordings of tracks).
         """
         self._config = config if config is not None else OdometryConfig()
         self._imu = imu
@@ -52,7 +66,9 @@ class StereoInertialOdometry:
         eyes = [eye.body_from_camera.inverse() @ self._body_from_imu for eye in (calibration.left, calibration.right)]
         self._left_from_imu = eyes[0]
         self._time_offset_ns = round(calibration.time_offset * 1e9)
-        self._front_end = FrontEnd(calibration, self._config.front_end)
+        self._front_end: TrackSource = (
+            front_end if front_end is not None else FrontEnd(calibration, self._config.front_end)
+        )
         self._window = SlidingWindow(
             Eyes(np.stack([e.rotation for e in eyes]), np.stack([e.position for e in eyes])),
             imu,
@@ -66,6 +82,7 @@ class StereoInertialOdometry:
         self._lost = False
         self._waited = 0.0
         self._history: deque[Array] = deque()
+        self._flows: deque[float] = deque(maxlen=100)  # px, motion seen in the last pictures
         self._pending: list[Array] = []  # inertia since the window's newest frame
         self._pending_trusted = True
         self._rate = np.zeros(3)
@@ -97,8 +114,13 @@ class StereoInertialOdometry:
         duration = float(samples[:, 0].sum())
         self._waited += float(inertia.samples[:, 0].sum())
         guess = (self._initial @ self._body_from_imu).rotation
-        moved = tracks.flow > self._config.rest.flow
-        if duration >= start.rest_duration - 1e-6 and not moved and is_still(samples, None, self._config.rest):
+        self._flows.append(tracks.flow)
+        moved, still = tracks.flow > self._config.rest.flow, self._seen_still()
+        if (
+            duration >= start.rest_duration - 1e-6
+            and (still or not moved)
+            and is_still(samples, None, self._config.rest, seen_still=still)
+        ):
             self._begin(begin_at_rest(samples, guess, self._imu, start), tracks)
         elif self._waited >= start.patience:
             self._begin(begin_in_motion(samples, guess, start), tracks)
@@ -238,10 +260,20 @@ class StereoInertialOdometry:
         return np.concatenate(self._history)
 
     def _is_resting(self, tracks: Tracks, inertia: Inertia) -> bool:
-        if not inertia.trusted or tracks.flow > self._config.rest.flow:
+        self._flows.append(tracks.flow)
+        still = self._seen_still()
+        if not inertia.trusted or (tracks.flow > self._config.rest.flow and not still):
             return False
         gyro_bias = self._window.frames.gyro_bias[self._window.newest]
-        return is_still(self._recent(), gyro_bias, self._config.rest)
+        return is_still(self._recent(), gyro_bias, self._config.rest, seen_still=still)
+
+    def _seen_still(self) -> bool:
+        """Have the last pictures, but for the odd one, shown hardly any motion?"""
+        flows = list(self._flows)[-len(self._history) :]
+        known = [flow for flow in flows if np.isfinite(flow)]
+        if len(known) < 4 or 2 * len(known) < len(flows):
+            return False
+        return float(np.median(known)) < SEEN_STILL * self._config.rest.flow
 
     # ---- reporting -------------------------------------------------------------------------------------------------
 

@@ -41,12 +41,17 @@ def levelled(world_from_imu: Array, up_in_imu: Array) -> Array:
     return np.asarray(rotation_exp(axis * (angle / sine)) @ world_from_imu)
 
 
-def is_still(samples: Array, gyro_bias: Array | None, rest: RestConfig) -> bool:
-    """Do samples (n, 7) look like an IMU at rest? Without a known bias, only their spread can tell."""
+def is_still(samples: Array, gyro_bias: Array | None, rest: RestConfig, *, seen_still: bool) -> bool:
+    """Do samples (n, 7) look like an IMU at rest? Without a known bias, only their spread can tell.
+
+    Where pictures have `seen_still` that nothing moves, the IMU may tremble as it does beside running motors.
+    """
     if len(samples) < 4:
         return False
     gyro, accel = samples[:, 1:4], samples[:, 4:7]
-    if (gyro.std(axis=0) > rest.gyro_deviation).any() or (accel.std(axis=0) > rest.accel_deviation).any():
+    greatest_gyro = rest.shaken_gyro_deviation if seen_still else rest.gyro_deviation
+    greatest_accel = rest.shaken_accel_deviation if seen_still else rest.accel_deviation
+    if (gyro.std(axis=0) > greatest_gyro).any() or (accel.std(axis=0) > greatest_accel).any():
         return False
     return gyro_bias is None or bool((np.abs(gyro.mean(axis=0) - gyro_bias) < rest.gyro_mean).all())
 
@@ -55,7 +60,8 @@ def begin_at_rest(samples: Array, guess: Array, imu: Imu, config: StartConfig) -
     """Level the guessed world_from_imu (3, 3) by the mean specific force; the mean turn rate is the gyro's bias."""
     duration = float(samples[:, 0].sum())
     force = samples[:, 4:7].mean(axis=0)
-    gyro_sigma = 2.0 * imu.gyro_noise_density / np.sqrt(duration)
+    trembling = samples[:, 1:4].std(axis=0).max() / np.sqrt(len(samples))
+    gyro_sigma = 2.0 * max(imu.gyro_noise_density / np.sqrt(duration), float(trembling))
     return _beginning(
         rotation=levelled(guess, force / np.linalg.norm(force)),
         gyro_bias=samples[:, 1:4].mean(axis=0),

@@ -198,6 +198,8 @@ class SlidingWindow:
         previous = candidate - 1
         if (self.stamps[candidate] - self.stamps[previous]) * 1e-9 > self._config.keyframe_interval:
             return True
+        if self._resting[candidate] != self._resting[candidate + 1]:
+            return True  # joined, the two intervals would no longer be known to hold a rest
         seen = self.landmarks.seen
         both = (seen[:, previous] > 0) & (seen[:, candidate] > 0)
         return bool(both.sum() < self._config.keyframe_overlap * self._tracked[previous])

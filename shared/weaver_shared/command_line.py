@@ -57,5 +57,14 @@ def bench(arguments: list[str]) -> int:
     return run(benches, arguments, "bench")
 
 
+def study(arguments: list[str]) -> int:
+    """`weaver study NAME`: the registered experiments."""
+    studies = _registered("weaver.studies")
+    if not arguments or arguments[0] in ("-h", "--help"):
+        print(f"usage: weaver study NAME [--json]\n\nnames: {', '.join(sorted(studies))}")
+        return 0
+    return run(studies, arguments, "study")
+
+
 if __name__ == "__main__":
     sys.exit(main())

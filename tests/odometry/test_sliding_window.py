@@ -7,10 +7,12 @@ from walking_motion import FRAME_NS, Ground, Walk, as_samples, inertia
 from robot_agent.odometry.landmarks import Eyes
 from robot_agent.odometry.prior import Prior, eliminate
 from robot_agent.odometry.start import begin_at_rest
+from robot_agent.odometry.tracks import Tracks
 from robot_agent.odometry.window import SlidingWindow
 from robot_agent.odometry.window_state import STATE, Frames, unknowns
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.odometry import OdometryConfig, StartConfig
+from weaver_shared.frames import GRAVITY
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import rotation_log
 
@@ -126,3 +128,29 @@ def test_a_prior_pulls_with_its_first_estimate_after_the_states_moved() -> None:
     prior.add_to(frames, again, same)
     assert same == pytest.approx(gradient)
     assert prior.fixed[:2].all()
+
+
+def test_a_body_that_trembles_stays_where_it_rests_though_one_moment_looks_like_motion(
+    robot: RobotDescription, calibration: StereoCalibration, eyes: Eyes
+) -> None:
+    random = np.random.default_rng(6)
+    window = SlidingWindow(eyes, robot.imu, calibration.left.fx, OdometryConfig())
+    window.begin(
+        0,
+        rotation=np.eye(3),
+        position=np.zeros(3),
+        velocity=np.zeros(3),
+        gyro_bias=np.zeros(3),
+        accel_bias=np.zeros(3),
+        rate=np.zeros(3),
+        information=np.diag(1.0 / np.repeat([1e-4, 1e-4, 1e-3, 1e-3, 0.05], 3) ** 2),
+    )
+    farthest = 0.0
+    for k in range(1, 60):
+        samples = np.tile([0.005, 0.0, 0.0, 0.0, 0.0, 0.0, GRAVITY], (10, 1))
+        samples[:, 4:7] += random.normal(0.0, 1.0, (10, 3))  # far beyond the described noise
+        window.add_frame(k * FRAME_NS, samples, np.zeros(3), Tracks.none("dark"), resting=k != 20)
+        assert window.optimise()[0]
+        if k > 24:
+            farthest = max(farthest, float(np.linalg.norm(window.frames.position[window.newest])))
+    assert farthest < 0.02

@@ -64,6 +64,8 @@ class RestConfig(_Model):
     gyro_deviation: Positive = 0.012  # rad/s, standard deviation of each axis
     gyro_mean: Positive = 0.01  # rad/s, after the bias is known
     accel_deviation: Positive = 0.12  # m/s^2
+    shaken_gyro_deviation: Positive = 0.15  # rad/s, likewise of a body that stands but trembles (motors, rotors)
+    shaken_accel_deviation: Positive = 2.0  # m/s^2
     flow: Positive = 0.35  # px, median between frames
     velocity_sigma: Positive = 0.003  # m/s
     rotation_sigma: Positive = 3.0e-4  # rad against the previous frame

@@ -1,0 +1,129 @@
+"""One walk of the drift study: the waypoint pattern in lock step, and how far the odometry was off at its end."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from robot_agent.evaluation.consistency import normalised_error
+from robot_agent.evaluation.trajectory import Trajectory, evaluate, same_heading
+from robot_agent.loops import CONTROL_RATE
+from sim_agent.lock_step import LockStep
+from sim_agent.worlds import make_world
+from weaver_shared.errors import WeaverError
+from weaver_shared.messages import Answer, CommandName, OdometryEstimate, OdometryQuality, TruthState, Waypoint
+from weaver_shared.robots import load_robot
+
+PATTERNS: dict[str, tuple[tuple[float, float], ...]] = {
+    "flat": ((5.0, 0.0), (5.0, 4.0), (0.5, 4.0), (0.5, 0.5), (4.5, 1.5)),
+    "testbed": ((1.7, 0.0), (3.4, 0.0), (5.0, 0.0), (6.7, 0.0), (8.4, 0.0)),
+}
+"""Five waypoints (m): 21 m about a square as in the paper's Fig. 8, and the testbed once from end to end."""
+
+STAND_SECONDS = 30.0
+SLOWEST = 0.02  # m/s; a robot that makes less way is stuck
+
+
+class StuckError(WeaverError):
+    """The robot did not come to the pattern's end."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DriftRun:
+    world: str
+    seed: int
+    drift_percent: float
+    final_error: float  # m
+    ate_m: float
+    path_length: float  # m
+    final_rotation_deg: float
+    normalised_error: float  # squared, of the last pose; 6 for a covariance that is right
+    good_percent: float  # of the frames
+    seconds: float  # simulated
+
+    def as_dict(self) -> dict[str, float | str]:
+        return asdict(self)
+
+
+def pattern_of(world: str, metres: float | None) -> tuple[Waypoint, ...]:
+    """The world's pattern, shrunk to a path of `metres` if given."""
+    corners = np.array([(0.0, 0.0), *PATTERNS[world]])
+    length = float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum())
+    scale = 1.0 if metres is None else metres / length
+    return tuple(Waypoint(x=float(x * scale), y=float(y * scale)) for x, y in corners[1:])
+
+
+def walk_pattern(world: str, seed: int, metres: float | None = None) -> DriftRun:
+    """Raises StuckError when the robot does not reach the last waypoint."""
+    robot = load_robot()
+    run = LockStep(robot, make_world(world, seed), seed)
+    estimates: list[OdometryEstimate] = []
+    truth: list[TruthState] = []
+    waypoints = pattern_of(world, metres)
+    try:
+        seconds = _walk(run, waypoints, estimates, truth)
+    finally:
+        run.close()
+    return _judge(world, seed, seconds, estimates, truth)
+
+
+def _walk(
+    run: LockStep, waypoints: tuple[Waypoint, ...], estimates: list[OdometryEstimate], truth: list[TruthState]
+) -> float:
+    def step() -> str:
+        moment = run.step()
+        if moment.truth is not None:
+            truth.append(moment.truth)
+        if moment.vision is not None and moment.vision.odometry.quality is not OdometryQuality.INITIALISING:
+            estimates.append(moment.vision.odometry)
+        return moment.walk.walk.posture
+
+    step()
+    for command in (CommandName.TAKE_CONTROL, CommandName.STAND):
+        _must(run.operator.send(command))
+    _must(run.operator.send(CommandName.SET_MISSION, waypoints=waypoints))
+    for _ in range(round(STAND_SECONDS * CONTROL_RATE)):
+        if step() == "standing":
+            break
+    _must(run.operator.send(CommandName.START_MISSION))
+    begin = run.clock.now_ns()
+    longest = np.linalg.norm(np.diff([(0.0, 0.0), *((w.x, w.y) for w in waypoints)], axis=0), axis=1).sum() / SLOWEST
+    for _ in range(round(float(longest) * CONTROL_RATE)):
+        step()
+        if run.walk.desk.mission(run.clock.now_ns()).phase == "done":
+            return (run.clock.now_ns() - begin) * 1e-9
+    raise StuckError(f"the robot did not reach its last waypoint within {longest:.0f} simulated seconds")
+
+
+def _judge(
+    world: str, seed: int, seconds: float, estimates: list[OdometryEstimate], truth: list[TruthState]
+) -> DriftRun:
+    estimated = Trajectory.of([e.stamp_ns for e in estimates], [e.world_from_body for e in estimates])
+    true = Trajectory(
+        stamp_ns=np.array([t.stamp_ns for t in truth], dtype=np.int64),
+        position=np.array([t.position_in_world for t in truth]),
+        wxyz=np.array([t.wxyz for t in truth]),
+    )
+    errors = evaluate(estimated, true)
+    # Where the robot woke up defines the odometry's world: the truth's is laid over it there.
+    truth_from_world = same_heading(estimates[0].world_from_body, true.pose_at(estimates[0].stamp_ns))
+    last = estimates[-1]
+    in_world = truth_from_world.inverse() @ true.pose_at(last.stamp_ns)
+    return DriftRun(
+        world=world,
+        seed=seed,
+        drift_percent=errors.drift_percent,
+        final_error=errors.final_error,
+        ate_m=errors.ate_m,
+        path_length=errors.path_length,
+        final_rotation_deg=errors.final_rotation_deg,
+        normalised_error=normalised_error(last.world_from_body, in_world, last.covariance),
+        good_percent=100.0 * sum(e.quality is OdometryQuality.GOOD for e in estimates) / len(estimates),
+        seconds=seconds,
+    )
+
+
+def _must(answer: Answer) -> None:
+    if not answer.accepted:
+        raise StuckError(f"the robot refused: {answer.reason}")
