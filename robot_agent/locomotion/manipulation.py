@@ -26,6 +26,7 @@ class Manipulation:
 
     def __init__(self, names: tuple[str, ...], state: WalkState, config: LocomotionConfig, dt: float) -> None:
         self._names = names
+        self._all_supporting = ("supporting",) * len(self._names)
         self._state = state
         self._config = config
         self._dt = dt
@@ -48,6 +49,8 @@ class Manipulation:
     @property
     def stages(self) -> tuple[str, ...]:
         """What each leg is doing: supporting, lifting, held or lowering."""
+        if not self._legs:
+            return self._all_supporting
         return tuple(self._legs[leg].stage if leg in self._legs else "supporting" for leg in range(len(self._names)))
 
     def margin_without(self, leg: int) -> float:
