@@ -189,7 +189,8 @@ def test_the_sandboxed_view_needs_no_cookie_but_its_own_secret(guarded: Console)
         protocol = f"viser-v{viser.__version__}"
         with guarded.connect(scene, subprotocols=[protocol], origin="null") as view:
             assert isinstance(view.recv(timeout=10.0), bytes)
-    assert guarded.http.get(scene).status_code == 401
+    left = (guarded.http.get(scene).status_code == 401 for _ in range(1000))  # the console hears of it a moment later
+    assert any(left)
 
 
 def test_there_is_no_view_for_a_page_that_is_not_connected(console: Console):

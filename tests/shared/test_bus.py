@@ -2,6 +2,7 @@
 
 import contextlib
 import queue
+import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -82,11 +83,13 @@ def command(name: CommandName = CommandName.STAND) -> Command:
 
 
 def request_when_served(bus: Bus, robot_id: str) -> Answer:
-    for _ in range(round(PATIENCE / 0.1)):
+    """Ask until the server is known here: until then a request comes back at once, so tries can not be counted."""
+    pause = threading.Event()
+    for _ in range(round(PATIENCE / 0.05)):
         try:
-            return bus.request(robot_id, command(), timeout=0.1)
+            return bus.request(robot_id, command(), timeout=1.0)
         except ResourceError:
-            continue
+            pause.wait(0.05)
     raise AssertionError("nobody answered")
 
 
