@@ -145,7 +145,7 @@ def test_the_workspace_equals_the_recorded_one():
     with open(DATA / "workspace_default.csv") as stream:
         for row in csv.DictReader(stream):
             radius = spaces[LEGS.index(row["leg"])].at(float(row["height_m"]))[int(row["bearing_deg"])]
-            assert radius == pytest.approx(float(row["radius_m"]), abs=TIP)
+            assert radius == pytest.approx(float(row["radius_m"]), abs=1e-9)
 
 
 @pytest.mark.parametrize(("robot", "name"), [("default", "default"), ("bullet_insectoid", "bullet")])
@@ -159,11 +159,11 @@ def test_speed_limits_equal_the_recorded_ones(robot, name):
     with open(DATA / f"{name}_tripod_gait_limits.csv") as stream:
         for row in csv.DictReader(stream):
             bearing = int(row["bearing_deg"])
-            assert radii[bearing] == pytest.approx(float(row["walkspace_m"]), abs=TIP)
-            assert limits.linear[bearing] == pytest.approx(float(row["max_lin_speed"]), abs=1e-7)
-            assert limits.angular[bearing] == pytest.approx(float(row["max_ang_speed"]), abs=1e-6)
-            assert limits.linear_acceleration[bearing] == pytest.approx(float(row["max_lin_acc"]), abs=1e-7)
-            assert limits.angular_acceleration[bearing] == pytest.approx(float(row["max_ang_acc"]), abs=1e-6)
+            assert radii[bearing] == pytest.approx(float(row["walkspace_m"]), rel=1e-9)
+            assert limits.linear[bearing] == pytest.approx(float(row["max_lin_speed"]), rel=1e-8)
+            assert limits.angular[bearing] == pytest.approx(float(row["max_ang_speed"]), rel=1e-8)
+            assert limits.linear_acceleration[bearing] == pytest.approx(float(row["max_lin_acc"]), rel=1e-8)
+            assert limits.angular_acceleration[bearing] == pytest.approx(float(row["max_ang_acc"]), rel=1e-8)
 
 
 @pytest.mark.parametrize("name", ROBOTS)
