@@ -7,9 +7,13 @@ import json
 import math
 from pathlib import Path
 
+import numpy as np
+
+from robot_agent.perception.local_planes import RADIUS, LocalPlanes
+from robot_agent.perception.report_wording import as_json, as_text
 from robot_agent.perception.stereo_cloud import read_pair, stereo_cloud
-from robot_agent.perception.terrain_files import Cloud, load_terrain
-from robot_agent.perception.terrain_report import TerrainReport, report_on_cloud, report_on_grid
+from robot_agent.perception.terrain_files import Cloud, ElevationGrid, load_terrain
+from robot_agent.perception.terrain_report import report_on_cloud, report_on_grid
 from robot_agent.vision.camchain import read_camchain
 from weaver_shared.config.perception import PerceptionConfig
 from weaver_shared.errors import InputError
@@ -17,8 +21,9 @@ from weaver_shared.errors import InputError
 
 def main(arguments: list[str]) -> int:
     options = _parser().parse_args(arguments)
-    if not (math.isfinite(options.scale) and options.scale > 0.0):
-        raise InputError(f"--scale {options.scale} is not a positive factor")
+    for name, value, what in (("scale", options.scale, "factor"), ("radius", options.radius, "length in m")):
+        if not (math.isfinite(value) and value > 0.0):
+            raise InputError(f"--{name} {value} is not a positive {what}")
     config = PerceptionConfig()
     features = config.features
     terrain = (
@@ -27,9 +32,13 @@ def main(arguments: list[str]) -> int:
         else load_terrain(Path(options.file), options.scale)
     )
     if isinstance(terrain, Cloud):
+        if options.layers:
+            raise InputError("--layers needs an elevation grid; a cloud or a stereo pair has no cells of its own")
         report = report_on_cloud(terrain, options.mode, features)
     else:
-        report = report_on_grid(terrain, options.mode, features)
+        report = report_on_grid(terrain, options.mode, features, options.radius)
+        if options.layers:
+            _write_layers(Path(options.layers), terrain, report.layers)
     print(json.dumps(as_json(report), allow_nan=False) if options.json else as_text(report))
     return 0
 
@@ -42,45 +51,16 @@ def _pair(options: argparse.Namespace, config: PerceptionConfig) -> Cloud:
     return Cloud(points=cloud.points * options.scale, labelled_up=None)
 
 
-def as_json(report: TerrainReport) -> dict[str, object]:
-    """Figures in SI units; unknown numbers are null."""
-    terrain = report.terrain
-    return {
-        "kind": report.kind,
-        "frame": report.frame,
-        "cell": report.cell,
-        "coverage": _number(report.coverage),
-        "roughness": {"value": _number(terrain.roughness), "sigma": _number(terrain.roughness_sigma)},
-        "step_height": {"value": _number(terrain.step_height), "sigma": _number(terrain.step_height_sigma)},
-        "features": [_number(value) for value in report.features],
-        "plane": {
-            "normal_in_input": [float(value) for value in report.normal_in_input],
-            "tilt_deg": report.tilt_deg,
-            "tilt_reference": report.tilt_reference,
-            "rms": report.rms,
-        },
-        "steps": [round(top.height, 5) for top in report.steps],
-        "step_areas": [round(top.area, 5) for top in report.steps],
-    }
-
-
-def as_text(report: TerrainReport) -> str:
-    terrain, normal = report.terrain, ", ".join(f"{value:.4f}" for value in report.normal_in_input)
-    steps = ", ".join(f"{1000 * top.height:.0f} mm" for top in report.steps) or "none"
-    return "\n".join(
-        [
-            f"{report.kind} in cells of {1000 * report.cell:.0f} mm, {report.coverage:.0%} known",
-            f"roughness    {terrain.roughness:.3f} +- {terrain.roughness_sigma:.3f} (0 flat, 1 roughest)",
-            f"step height  {terrain.step_height:.3f} +- {terrain.step_height_sigma:.3f} (0 none, 1 highest)",
-            f"plane        normal ({normal}), {report.tilt_deg:.2f} degrees to {report.tilt_reference}, "
-            f"rms {1000 * report.rms:.1f} mm",
-            f"flat tops    {steps} above the ground",
-        ]
-    )
-
-
-def _number(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
+def _write_layers(path: Path, grid: ElevationGrid, planes: LocalPlanes | None) -> None:
+    if planes is None:
+        return
+    try:
+        with path.open("wb") as stream:
+            np.savez_compressed(
+                stream, elevation=grid.heights, slope=planes.slope, roughness=planes.roughness, resolution=grid.cell
+            )
+    except OSError as error:
+        raise InputError(f"{path} can not be written: {error}") from error
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -90,7 +70,8 @@ def _parser() -> argparse.ArgumentParser:
         "elevation grid or a stereo pair.",
         epilog="tilt_deg is the angle in degrees between the plane's normal and the file's labelled up direction; "
         "where there is none, the camera's up axis (-y) for a cloud in the optical frame, and +z otherwise. "
-        "normal_in_input points towards the sensor, or up. steps are heights in m of flat places above the ground.",
+        "normal_in_input points towards the sensor, or up. steps are heights in m of flat places above the ground. "
+        "Where a grid's file has layers named as those of ETH's traversability filters, ours are compared with them.",
     )
     parser.add_argument(
         "file",
@@ -106,5 +87,14 @@ def _parser() -> argparse.ArgumentParser:
         help="robust plane and noise taken off, or the paper's literal chain with least squares (default robust)",
     )
     parser.add_argument("--scale", type=float, default=1.0, help="factor on all lengths, to metres (default 1)")
+    parser.add_argument(
+        "--radius",
+        type=float,
+        default=RADIUS,
+        help=f"radius in m of the circle whose plane gives a grid's cell its slope and roughness (default {RADIUS})",
+    )
+    parser.add_argument(
+        "--layers", metavar="FILE", help="write a grid's slope (rad) and roughness (m) of every cell to this .npz"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object; lengths in m, angles in degrees")
     return parser

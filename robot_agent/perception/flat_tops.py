@@ -21,7 +21,8 @@ SAME_HEIGHT = 0.01  # m within which tops are one height
 class FlatTop:
     """One height at which there is level ground."""
 
-    height: float  # m
+    height: float  # m, what a foot has to clear
+    middle: float  # m, the median of its cells
     area: float  # m^2
 
 
@@ -54,7 +55,7 @@ def _top(heights: Array, cell: float, region: NDArray[np.bool_]) -> FlatTop | No
     slopes, *_ = np.linalg.lstsq(design, z - z.mean(), rcond=None)
     if float(np.hypot(*slopes)) > STEEPEST:
         return None
-    return FlatTop(height=float(np.quantile(z, TOP_QUANTILE)), area=cells * cell**2)
+    return FlatTop(height=float(np.quantile(z, TOP_QUANTILE)), middle=float(np.median(z)), area=cells * cell**2)
 
 
 def _merged(tops: list[FlatTop]) -> list[FlatTop]:
@@ -69,4 +70,8 @@ def _merged(tops: list[FlatTop]) -> list[FlatTop]:
 
 def _joined(group: list[FlatTop]) -> FlatTop:
     area = sum(top.area for top in group)
-    return FlatTop(height=sum(top.height * top.area for top in group) / area, area=area)
+    return FlatTop(
+        height=sum(top.height * top.area for top in group) / area,
+        middle=sum(top.middle * top.area for top in group) / area,
+        area=area,
+    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -32,10 +32,14 @@ class Cloud:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ElevationGrid:
-    """Heights (rows, columns) in m, NaN unknown, of square cells of `cell` m; up is +z."""
+    """Heights (rows, columns) in m, NaN unknown, of square cells of `cell` m; up is +z.
+
+    `layers` are the file's other arrays of the same shape, as they are: for comparison only.
+    """
 
     heights: Array
     cell: float
+    layers: Mapping[str, Array] = field(default_factory=dict)
 
 
 def load_terrain(path: Path, scale: float = 1.0) -> Cloud | ElevationGrid:
@@ -107,7 +111,12 @@ def _grid(
         metres = without_fill_value(metres)
     if np.isfinite(metres).sum() < 100:
         raise InputError(f"{path} has {int(np.isfinite(metres).sum())} known cells; 100 are needed")
-    return ElevationGrid(heights=metres * scale, cell=length * scale)
+    layers = {
+        key: np.asarray(array, dtype=np.float64)
+        for key, array in arrays.items()
+        if array is not heights and array.shape == heights.shape and np.issubdtype(array.dtype, np.floating)
+    }
+    return ElevationGrid(heights=metres * scale, cell=length * scale, layers=layers)
 
 
 def _first(arrays: Mapping[str, NDArray[np.generic]], keys: tuple[str, ...]) -> NDArray[np.generic] | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,9 @@ from robot_agent.perception.cloud import cell_for, highest_points, level
 from robot_agent.perception.features import Roughness, characterise, patch_features
 from robot_agent.perception.flat_tops import FlatTop, flat_tops
 from robot_agent.perception.ground_plane import fit_plane
+from robot_agent.perception.layer_comparison import LayerComparison, compare_layers
+from robot_agent.perception.local_planes import RADIUS, LocalPlanes, local_planes
+from robot_agent.perception.stairs import Stairs, find_stairs
 from robot_agent.perception.terrain_files import Cloud, ElevationGrid
 from weaver_shared.config.perception import FeatureConfig, PlaneMode
 
@@ -39,6 +42,9 @@ class TerrainReport:
     tilt_reference: str
     rms: float  # m of the ground about the plane
     steps: tuple[FlatTop, ...]
+    stairs: Stairs | None
+    layers: LocalPlanes | None  # of grids
+    compared: tuple[LayerComparison, ...]  # with layers that the file brought along
 
 
 def report_on_cloud(cloud: Cloud, mode: PlaneMode, features: FeatureConfig) -> TerrainReport:
@@ -69,17 +75,26 @@ def report_on_cloud(cloud: Cloud, mode: PlaneMode, features: FeatureConfig) -> T
         tilt_reference=name,
         rms=rms if mode == "paper" else levelled.ground_rms,
         steps=tuple(tops),
+        stairs=find_stairs(tops),
+        layers=None,
+        compared=(),
     )
 
 
-def report_on_grid(grid: ElevationGrid, mode: PlaneMode, features: FeatureConfig) -> TerrainReport:
-    """Characterise a grid about its plane; its ground is the lowest flat place of some extent."""
+def report_on_grid(
+    grid: ElevationGrid, mode: PlaneMode, features: FeatureConfig, radius: float = RADIUS
+) -> TerrainReport:
+    """Characterise a grid about its plane; its ground is the lowest flat place of some extent.
+
+    `radius` (m) is that of the circle whose plane gives each cell its slope and roughness.
+    """
     normal, terrain, values, coverage, rms = _characterised(grid.heights, grid.cell, mode, features, None)
     tops = flat_tops(grid.heights, grid.cell) if grid.cell < LARGEST_STEP_CELL else []
     extent = float(np.isfinite(grid.heights).sum()) * grid.cell**2
     broad = [top for top in tops if top.area > 0.02 * extent]
     ground = broad[0].height if broad else 0.0
-    steps = [FlatTop(height=top.height - ground, area=top.area) for top in tops if top.height - ground > SMALLEST_STEP]
+    steps = [replace(top, height=top.height - ground) for top in tops if top.height - ground > SMALLEST_STEP]
+    layers = local_planes(grid.heights, grid.cell, radius)
     return TerrainReport(
         kind="grid",
         frame="z up",
@@ -92,6 +107,9 @@ def report_on_grid(grid: ElevationGrid, mode: PlaneMode, features: FeatureConfig
         tilt_reference="input z",
         rms=rms,
         steps=tuple(steps),
+        stairs=find_stairs(tops),
+        layers=layers,
+        compared=compare_layers(layers, grid.layers),
     )
 
 

@@ -114,14 +114,25 @@ def test_recorded_tables_are_level_within_half_a_degree(name, steps, capsys):
 
 
 def test_recorded_stairs_rise_as_measured(capsys):
-    steps = report(recorded("anymal_stairs"), capsys)["steps"]
-    rises = np.diff([step for step in steps if step > 0.15 and abs(step - 0.265) > 0.02])
+    found = report(recorded("anymal_stairs"), capsys)
+    rises = np.diff([step for step in found["steps"] if step > 0.15 and abs(step - 0.265) > 0.02])
     assert rises == pytest.approx([0.19] * 3, abs=0.01)
+    assert 0.18 <= found["stairs"]["rise"] <= 0.19
+    assert found["stairs"]["rises"] == 4
 
 
 def test_recorded_map_has_its_four_platforms(capsys):
     found = report(recorded("eth_traversability_map"), capsys)
     assert found["steps"] == pytest.approx([0.1, 0.2, 0.3, 0.4], abs=0.005)
+
+
+def test_slope_and_roughness_equal_the_layers_that_eths_filters_computed(capsys):
+    compared = report(recorded("eth_traversability_map"), capsys)["layers"]["compared_with_file"]
+    slope, roughness = compared["traversability_slope"], compared["traversability_roughness"]
+    assert slope["cells"] > 12_000
+    assert slope["p99_difference"] < 2e-6  # rad
+    assert roughness["cells"] > 13_000
+    assert roughness["p99_difference"] < 1e-8  # m
 
 
 @pytest.mark.parametrize(
@@ -151,3 +162,14 @@ def test_missing_and_damaged_files_are_answered_in_a_sentence(tmp_path):
         terrain.main([str(tmp_path / "none.npz")])
     with pytest.raises(InputError, match="positive factor"):
         terrain.main([str(tmp_path / "none.npz"), "--scale", "-1"])
+
+
+def test_a_grids_layers_are_written_and_those_of_a_cloud_refused(tmp_path, table, capsys):
+    x = np.arange(30)[:, None] * 0.02 + np.zeros((30, 20))
+    np.savez(tmp_path / "ramp.npz", elevation=0.5 * x, resolution=0.02)
+    report(tmp_path / "ramp.npz", capsys, "--layers", str(tmp_path / "layers.npz"))
+    with np.load(tmp_path / "layers.npz") as layers:
+        assert layers["slope"] == pytest.approx(np.full((30, 20), np.arctan(0.5)), abs=1e-6)
+        assert layers["roughness"] == pytest.approx(np.zeros((30, 20)), abs=1e-6)
+    with pytest.raises(InputError, match="has no cells of its own"):
+        terrain.main([str(table), "--layers", str(tmp_path / "layers.npz")])
