@@ -3,7 +3,6 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.kinematics.chain import solve_symmetric
 from robot_agent.kinematics.compiled import kernel
 
 Array = NDArray[np.float64]
@@ -19,18 +18,18 @@ def link_gravity_torque(origins: Array, axes: Array, link_mass: Array, gravity_i
 
     A link's mass sits half-way between its joint and the next; `gravity_in_body` (3,) is the unit vector downwards.
     """
-    n = axes.shape[0]
-    for i in range(n):
-        torque[i] = 0.0
-        for j in range(i, n):
-            rx = 0.5 * (origins[j, 0] + origins[j + 1, 0]) - origins[i, 0]
-            ry = 0.5 * (origins[j, 1] + origins[j + 1, 1]) - origins[i, 1]
-            rz = 0.5 * (origins[j, 2] + origins[j + 1, 2]) - origins[i, 2]
-            gx, gy, gz = gravity_in_body[0], gravity_in_body[1], gravity_in_body[2]
-            moment = (
-                axes[i, 0] * (ry * gz - rz * gy) + axes[i, 1] * (rz * gx - rx * gz) + axes[i, 2] * (rx * gy - ry * gx)
-            )
-            torque[i] -= link_mass[j] * GRAVITY * moment
+    gx, gy, gz = GRAVITY * gravity_in_body[0], GRAVITY * gravity_in_body[1], GRAVITY * gravity_in_body[2]
+    mass, sx, sy, sz = 0.0, 0.0, 0.0, 0.0  # of the links from joint i on: mass, and mass times place
+    for i in range(axes.shape[0] - 1, -1, -1):
+        half = 0.5 * link_mass[i]
+        mass += link_mass[i]
+        sx += half * (origins[i, 0] + origins[i + 1, 0])
+        sy += half * (origins[i, 1] + origins[i + 1, 1])
+        sz += half * (origins[i, 2] + origins[i + 1, 2])
+        rx, ry, rz = sx - mass * origins[i, 0], sy - mass * origins[i, 1], sz - mass * origins[i, 2]
+        torque[i] = (
+            axes[i, 0] * (rz * gy - ry * gz) + axes[i, 1] * (rx * gz - rz * gx) + axes[i, 2] * (ry * gx - rx * gy)
+        )
 
 
 @kernel
@@ -40,15 +39,17 @@ def foot_force(jacobian: Array, joint_torque: Array, own_torque: Array, force: A
     `jacobian` is (3, n), `own_torque` (n,) what the links need. Damped least squares over the joints:
     F = -(J J^T + damping)^-1 J (tau - tau_gravity).
     """
-    n = joint_torque.size
-    normal, right = np.empty((3, 3)), np.empty(3)
-    for a in range(3):
-        right[a] = 0.0
-        for i in range(n):
-            right[a] -= jacobian[a, i] * (joint_torque[i] - own_torque[i])
-        for b in range(3):
-            normal[a, b] = DAMPING if a == b else 0.0
-            for i in range(n):
-                normal[a, b] += jacobian[a, i] * jacobian[b, i]
-    if not solve_symmetric(normal, right, force):
-        force[0], force[1], force[2] = 0.0, 0.0, 0.0
+    n00, n01, n02, n11, n12, n22 = DAMPING, 0.0, 0.0, DAMPING, 0.0, DAMPING
+    rx, ry, rz = 0.0, 0.0, 0.0
+    for i in range(joint_torque.size):
+        jx, jy, jz = jacobian[0, i], jacobian[1, i], jacobian[2, i]
+        given = own_torque[i] - joint_torque[i]
+        rx, ry, rz = rx + jx * given, ry + jy * given, rz + jz * given
+        n00, n01, n02 = n00 + jx * jx, n01 + jx * jy, n02 + jx * jz
+        n11, n12, n22 = n11 + jy * jy, n12 + jy * jz, n22 + jz * jz
+    c00, c01, c02 = n11 * n22 - n12 * n12, n02 * n12 - n01 * n22, n01 * n12 - n02 * n11
+    c11, c12, c22 = n00 * n22 - n02 * n02, n01 * n02 - n00 * n12, n00 * n11 - n01 * n01
+    scale = 1.0 / (n00 * c00 + n01 * c01 + n02 * c02)  # the damping keeps the determinant from zero
+    force[0] = scale * (c00 * rx + c01 * ry + c02 * rz)
+    force[1] = scale * (c01 * rx + c11 * ry + c12 * rz)
+    force[2] = scale * (c02 * rx + c12 * ry + c22 * rz)

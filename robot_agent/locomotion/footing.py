@@ -37,7 +37,7 @@ class Footing:
         self._stood = np.zeros(legs)  # s each foot has been on the ground
         self._slipped = np.zeros((legs, 2))  # m, forgotten again over `slip_time`
         self._told = np.zeros((legs, 2), dtype=np.bool_)  # slip, stumble
-        self.slipping = np.zeros(legs, dtype=np.bool_)  # feet that slide now
+        self.slipping = state.cut("answer", "slipping").view(np.bool_)  # feet that slide now
         self._ticks = 0
 
     def clear(self) -> None:

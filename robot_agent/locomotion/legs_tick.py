@@ -33,6 +33,13 @@ def sense_tick(memory: Array, upright: bool) -> None:
         feet[leg] = senses.origins[leg, n]
     walk.answer.static_margin = static_margin(feet, carrying, senses.centre_of_mass, senses.up)
     walk.answer.energy_margin = energy_margin(feet, carrying, senses.centre_of_mass, senses.up)
+    walk.answer.may_lift = upright and not walk.gait.walking
+    if walk.answer.may_lift:
+        for leg in range(legs):
+            carries = carrying[leg]
+            carrying[leg] = False
+            walk.answer.lift_margin[leg] = static_margin(feet, carrying, senses.centre_of_mass, senses.up)
+            carrying[leg] = carries
 
 
 @kernel

@@ -29,6 +29,11 @@ class StabilityWatch:
         self._good_for = 0.0
 
     @property
+    def idle(self) -> bool:
+        """Whether margins above `warn` would change nothing."""
+        return self._level == GOOD and not any(self._low_for)
+
+    @property
     def calm(self) -> bool:
         """Whether there is nothing to say or do."""
         return self._level == GOOD

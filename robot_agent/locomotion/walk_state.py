@@ -162,6 +162,16 @@ ANSWER = np.dtype(
         ("static_margin", F),
         ("energy_margin", F),
         ("residual", F),  # m rms of the feet about the ground plane
+        ("may_lift", N),  # whether the robot stands, so that `lift_margin` holds
+        ("lift_margin", F, (LEGS,)),  # m, static, without each leg
+        ("velocity", F, (3,)),  # the rest is copied here for whoever is told
+        ("plane", F, (3,)),
+        ("force", F, (LEGS,)),
+        ("phase", F, (LEGS,)),
+        ("foot", F, (LEGS, 3)),
+        ("joint_position", F, (LEGS * JOINTS,)),
+        ("swing", np.uint8, (LEGS,)),
+        ("slipping", np.uint8, (LEGS,)),
     ]
 )
 
@@ -217,6 +227,8 @@ class WalkState:
     def __init__(self, legs: int, joints: int) -> None:
         self.memory = np.zeros(1, WALK)
         self.record = self.memory[0]
+        begin = WALK.fields["answer"][1] if WALK.fields else 0
+        self.answer = self.memory.view(np.uint8)[begin : begin + ANSWER.itemsize]
         self._size = {LEGS: legs, JOINTS: joints, JOINTS + 1: joints + 1, LEGS * JOINTS: legs * joints}
 
     def cut(self, part: str, field: str) -> Array:

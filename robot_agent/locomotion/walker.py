@@ -22,18 +22,19 @@ from robot_agent.locomotion.legs_tick import (
 from robot_agent.locomotion.manipulation import Manipulation
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from robot_agent.locomotion.posing.poser import Poser
-from robot_agent.locomotion.reasons import sentences
 from robot_agent.locomotion.rising import Glide
 from robot_agent.locomotion.stability_watch import StabilityWatch, is_static
 from robot_agent.locomotion.stepper import stand
 from robot_agent.locomotion.walk_tick import WalkInput, WalkOutput
 from robot_agent.locomotion.walker_memory import walker_memory
+from robot_agent.locomotion.whole_tick import UNSTABLE, answer_tick, usual_tick
 from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.robots import RobotDescription
-from weaver_shared.robots.gaits import Gait
 
 Array = NDArray[np.float64]
 
+UPRIGHT = ("standing", "walking")
+NO_MARGINS = (-np.inf, -np.inf)
 MARCH = 2e-4
 """m/s: to step in place is to walk at hardly any speed."""
 LONGEST_MARCH = 4.0
@@ -52,30 +53,26 @@ class Walker:
         self._model = model = LegModel.of_robot(robot, speed_fraction=config.speed_fraction)
         self._state = state = walker_memory(robot, model, config, dt)
         self._memory = state.memory
-        self._limits = state.record["answer"]
         self._velocity, self._parameters = state.cut("orders", "velocity"), state.cut("orders", "parameters")
         self._position, self._torque = state.cut("readings", "joint_position"), state.cut("readings", "joint_torque")
         self._contact, self._gravity = state.cut("readings", "contact"), state.cut("readings", "gravity")
         self._measured_feet = state.cut("senses", "origins")[:, -1]  # m in body
-        self._force = state.cut("senses", "force")
         self._in_air = state.cut("feet", "in_air").view(np.bool_)
         self._places, self._stances = state.cut("feet", "place"), state.cut("feet", "stance")
         self._phase = state.cut("gait", "leg_phase")
         self._walked = state.cut("gait", "velocity")
-        self._plane = state.cut("body", "plane")
         self._feet = state.cut("joint", "foot")
         self._angles = state.cut("joint", "wanted")
         self._target = state.cut("joint", "target")
         self._load = state.cut("load", "load")
         self._sitting_height = float(robot.sitting_in_body[0, 2]) + config.sitting_lift
-        self._gait: Gait | None = None
-        self._gait_is_static = False
+        self._told = state.answer
+        self._feels_ground = config.feel_ground
+        self._unhindered = False  # on its legs, stable, with none in hand and without a pose
         self._poser = Poser(config, model, robot.stance_in_body, np.array(robot.body.centre_of_mass_in_body), dt)
         self._up = state.cut("senses", "up")
         self._manipulation = Manipulation(robot.leg_names, state, config, dt)
-        self._lift_margins: tuple[float, ...] = ()
         self._footing = Footing(robot.leg_names, state, config.footing, dt)
-        self._ticks = 0
         self._stability = StabilityWatch(config.stability, dt)
         self._posture = "sitting"
         self._folding: Folding | None = None
@@ -92,7 +89,7 @@ class Walker:
         angles = np.where(np.isfinite(angles), angles, self._angles)
         np.clip(angles, self._model.limits[:, 0], self._model.limits[:, 1], out=self._angles)
         self._target[:] = self._angles.ravel()
-        self._posture = "sitting"
+        self._posture, self._unhindered = "sitting", False
         self._folding = self._foot_glide = None
         self._poser.clear()
         self._manipulation.clear()
@@ -108,41 +105,50 @@ class Walker:
         solve_feet(self._memory, stance)
         believe(self._memory)
         stand(self._memory, stance, 1.0)
-        self._posture = "standing"
+        self._posture, self._unhindered = "standing", False
         return self._angles.ravel()
 
     def step(self, sensed: WalkInput) -> WalkOutput:
         """One control tick. Readings and orders that are not finite are replaced and named in `reasons`."""
         reasons = self._take(sensed)
-        upright = self._posture in ("standing", "walking")
-        sense_tick(self._memory, upright)
+        upright = self._posture in UPRIGHT
+        posing = sensed.posing
+        if self._unhindered and sensed.stand and not sensed.legs and (posing is NO_POSING or posing.idle):
+            done = usual_tick(self._memory, *self._calm_margins)
+            if done != UNSTABLE:
+                self._posture, self._marched = UPRIGHT[done], 0.0
+                return self._answer(reasons, self._footing.step() if self._feels_ground else ())
+        else:
+            sense_tick(self._memory, upright)
         reasons += self._judge_stability(upright)
         if not sensed.stand:
             self._velocity[:] = 0.0
         self._act(sensed)
-        self._ticks += 1
         events: tuple[str, ...] = ()
-        if upright and self._config.feel_ground:
+        if upright and self._feels_ground:
             events = self._footing.step()
         else:
             self._footing.clear()
+        answer_tick(self._memory)
+        idle = self._poser.idle and self._manipulation.idle and self._stability.idle
+        self._unhindered = idle and self._posture in UPRIGHT
         return self._answer(reasons + self._poser.reasons + self._manipulation.reasons, events)
 
     def _take(self, sensed: WalkInput) -> tuple[str, ...]:
         """Write a tick's readings and orders into the memory; what has the wrong size or kind counts as missing."""
         parameters, ordered = sensed.parameters, self._parameters
         try:
-            self._position[:] = sensed.joint_position
-            self._torque[:] = sensed.joint_torque
-            self._gravity[:] = sensed.gravity_in_body
-            self._contact[:] = sensed.foot_contact
-            self._velocity[:] = sensed.velocity
+            self._position[...] = sensed.joint_position
+            self._torque[...] = sensed.joint_torque
+            self._gravity[...] = sensed.gravity_in_body
+            self._contact[...] = sensed.foot_contact
+            self._velocity[...] = sensed.velocity
             ordered[0] = parameters.stride_frequency
             ordered[1] = parameters.stride_height
             ordered[2] = parameters.virtual_stiffness
         except (ValueError, TypeError):
             self._miss_all()
-        return self._choose_gait(sensed.gait)
+        return () if sensed.gait == self._gait_name else self._choose_gait(sensed.gait)
 
     def _miss_all(self) -> None:
         for array in (self._position, self._torque, self._gravity, self._velocity, self._parameters):
@@ -154,10 +160,11 @@ class Walker:
         gait = self._robot.gait_table.get(name)
         if gait is None:
             return (f"gait {name!r} is unknown",)
-        if gait is not self._gait:
-            orders = self._state.record["orders"]
-            self._gait, self._gait_is_static, orders["duty"] = gait, is_static(gait), gait.duty
-            self._state.cut("orders", "offset")[:] = gait.offsets
+        stability = self._config.stability
+        self._gait, self._gait_name, self._gait_is_static = gait, name, is_static(gait)
+        self._calm_margins = (stability.warn_static, stability.warn_energy) if self._gait_is_static else NO_MARGINS
+        self._state.record["orders"]["duty"] = gait.duty
+        self._state.cut("orders", "offset")[:] = gait.offsets
         return ()
 
     def _judge_stability(self, upright: bool) -> tuple[str, ...]:
@@ -166,8 +173,8 @@ class Walker:
         if not (upright and self._gait_is_static):
             watch.clear()
             return ()
-        _, static, energy, _ = self._limits.item()
-        watch.update(static, energy)
+        margins = self._state.record["answer"]
+        watch.update(float(margins["static_margin"]), float(margins["energy_margin"]))
         if watch.calm:
             return ()
         self._velocity *= watch.factor
@@ -189,7 +196,8 @@ class Walker:
                 self._marched += self._dt * float(self._state.record["gait"]["frequency"])
             self._hold_legs(sensed)
             self._walk(sensed.posing if sensed.stand else NO_POSING)
-            self._manipulation.turn_joints(self._angles, self._target.reshape(self._angles.shape))
+            if not self._manipulation.idle:
+                self._manipulation.turn_joints(self._angles, self._target.reshape(self._angles.shape))
             if sensed.stand:
                 self._marched = 0.0
             elif self._posture == "standing" and self._poser.idle and self._manipulation.idle and not marching:
@@ -198,18 +206,11 @@ class Walker:
     def _hold_legs(self, sensed: WalkInput) -> None:
         """Legs are held while the robot stands safely; until all are down again it does not walk."""
         manipulation, standing = self._manipulation, self._posture == "standing"
-        self._lift_margins = self._margins_without_each() if standing else ()
         if manipulation.idle and not (sensed.legs and standing and not self._velocity.any()):
             return
         orders = sensed.legs if sensed.stand and self._stability.factor > 0.0 else ()
         manipulation.step(orders, self._poser.pose)
         self._velocity[:] = 0.0
-
-    def _margins_without_each(self) -> tuple[float, ...]:
-        """Static margins for judging whether a leg may be lifted, renewed ten times a second."""
-        if self._lift_margins and self._ticks % 10:
-            return self._lift_margins
-        return tuple(self._manipulation.margin_without(leg) for leg in range(self._model.leg_count))
 
     def _must_march(self) -> bool:
         """Whether a foot stands too far from where it belongs to be lowered upon."""
@@ -228,7 +229,6 @@ class Walker:
     def _pose(self, posing: PosingOrder, walking: bool) -> None:
         """Pose the body against its un-posed place, in which the feet's places are wanted."""
         gait, orders = self._state.record["gait"], self._state.record["orders"]
-        assert self._gait is not None
         pose = self._poser.step(
             posing,
             self._up,
@@ -323,24 +323,14 @@ class Walker:
             self._posture = "sitting"
 
     def _answer(self, reasons: tuple[str, ...], events: tuple[str, ...]) -> WalkOutput:
-        limits, static, energy, residual = self._limits.item()
         return WalkOutput(
-            joint_position=self._target.copy(),
-            foot_in_body=self._feet.copy(),
-            foot_force=self._force.copy(),
-            phase=self._phase.copy(),
-            swing=self._in_air.copy(),
-            velocity=self._walked.copy(),
-            stability_margin=static,
-            energy_margin=energy,
-            stability=self._stability.level,
-            ground_plane=self._plane.copy(),
-            ground_residual=residual,
-            unposed_from_body=self._poser.pose,
-            slipping=self._footing.slipping.copy(),
-            events=events,
-            leg_stages=self._manipulation.stages,
-            lift_margins=self._lift_margins,
-            posture=self._posture,
-            reasons=sentences(limits) + reasons,
+            self._told.tobytes(),
+            self._model.leg_count,
+            self._target.size,
+            self._posture,
+            self._stability.level,
+            self._poser.pose,
+            self._manipulation.stages,
+            events,
+            reasons,
         )

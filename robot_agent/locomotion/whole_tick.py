@@ -1,0 +1,43 @@
+"""The usual tick in one kernel: a robot on its legs, stable, with nothing in hand and no pose."""
+
+from robot_agent.kinematics.compiled import kernel
+from robot_agent.locomotion.legs_tick import sense_tick, walk_tick
+from robot_agent.locomotion.walk_state import Array, Record
+
+STAND, WALK, UNSTABLE = 0, 1, 2
+"""What became of a usual tick; one that is `UNSTABLE` has only taken its readings."""
+
+
+@kernel
+def usual_tick(memory: Array, static_margin: float, energy_margin: float) -> int:
+    """From readings to servo targets and answer, if both margins (m) are kept."""
+    sense_tick(memory, True)
+    margins = memory[0].answer
+    if not (margins.static_margin >= static_margin and margins.energy_margin >= energy_margin):
+        return UNSTABLE
+    walking = walk_tick(memory)
+    answer(memory[0])
+    return WALK if walking else STAND
+
+
+@kernel
+def answer_tick(memory: Array) -> None:
+    """Write the answer of a tick that was made of several kernels."""
+    answer(memory[0])
+
+
+@kernel
+def answer(walk: Record) -> None:
+    """Copy what others are told, so that it is one piece of memory."""
+    told, legs = walk.answer, walk.model.legs
+    for k in range(3):
+        told.velocity[k] = walk.gait.velocity[k]
+        told.plane[k] = walk.body.plane[k]
+    for leg in range(legs):
+        told.force[leg] = walk.senses.force[leg]
+        told.phase[leg] = walk.gait.leg_phase[leg]
+        told.swing[leg] = walk.feet.in_air[leg]
+        for k in range(3):
+            told.foot[leg, k] = walk.joint.foot[leg, k]
+    for i in range(legs * walk.model.joints):
+        told.joint_position[i] = walk.joint.target[i]
