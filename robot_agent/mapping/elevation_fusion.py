@@ -29,6 +29,17 @@ class Extent(NamedTuple):
     column_end: int
 
 
+def joined(a: Extent, b: Extent) -> Extent:
+    """The smallest extent that holds both."""
+    if a.row_end <= a.row:
+        return b
+    if b.row_end <= b.row:
+        return a
+    return Extent(
+        min(a.row, b.row), min(a.column, b.column), max(a.row_end, b.row_end), max(a.column_end, b.column_end)
+    )
+
+
 @njit(cache=True)
 def predicted_variance(variance: float, seconds: float, rules: FusionRules) -> float:
     """A cell not seen for a while is less certain, up to the ceiling: it is kept, never forgotten."""

@@ -34,7 +34,11 @@ class RollingGrid:
         self.step_height = np.full(shape, np.nan, dtype=np.float32)
         self.step_height_sigma = np.full(shape, np.nan, dtype=np.float32)
         self.slope = np.full(shape, np.nan, dtype=np.float32)
+        self.upper = np.full(shape, np.nan, dtype=np.float32)  # highest point seen of the cell
+        self.ceiling = np.full(shape, np.nan, dtype=np.float32)  # lowest thing overhead
+        self.contact = np.full(shape, np.nan, dtype=np.float32)  # where a foot was borne
         self.rejected = np.zeros(shape, dtype=np.uint8)
+        self.contradicted = np.zeros(shape, dtype=np.uint8)
         self.seen_ns = np.zeros(shape, dtype=np.int64)
 
     @property
@@ -47,6 +51,9 @@ class RollingGrid:
             self.step_height,
             self.step_height_sigma,
             self.slope,
+            self.upper,
+            self.ceiling,
+            self.contact,
         )
 
     @property
@@ -83,10 +90,15 @@ class RollingGrid:
         """Storage places of world rows (or columns) begin..end, cut to the window that begins at `window_begin`."""
         return np.arange(max(begin, window_begin), min(end, window_begin + self.size)) % self.size
 
+    def clear(self) -> None:
+        """Everything becomes unknown; the window stays."""
+        self._forget(slice(None), slice(None))
+
     def _forget(self, rows: slice, columns: slice) -> None:
         for layer in self._float_layers:
             layer[rows, columns] = np.nan
         self.rejected[rows, columns] = 0
+        self.contradicted[rows, columns] = 0
         self.seen_ns[rows, columns] = 0
 
 

@@ -1,31 +1,26 @@
-"""The ground around the robot as seen so far, and its worst place under the feet (ICRA'17 III-E, Fig. 7)."""
+"""The ground around the robot as seen and felt so far (ICRA'17 III-E, Fig. 7)."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.mapping.elevation_fusion import Extent, FusionRules, fuse
+from robot_agent.mapping.bounds import renew_bounds
+from robot_agent.mapping.deformation import PosesAsUsed, deform, largest_change
+from robot_agent.mapping.elevation_fusion import Extent, FusionRules, fuse, joined
+from robot_agent.mapping.footholds import Cover, Footholds
+from robot_agent.mapping.footprint import WorstTerrain, worst_terrain
 from robot_agent.mapping.rolling_grid import RollingGrid
 from robot_agent.mapping.sliding_features import cell_features
 from robot_agent.mapping.tiles import quantised_tile, worth_sending
+from robot_agent.mapping.visibility import forget_contradicted
 from weaver_shared.config.mapping import MappingConfig
 from weaver_shared.messages import MapTile, OdometryEstimate
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorstTerrain:
-    """The roughest and highest of a circle, 0..1 with standard deviations; NaN where too little is known."""
-
-    roughness: float
-    roughness_sigma: float
-    step_height: float
-    step_height_sigma: float
-    known: float  # share of the circle's cells with an answer
+from weaver_shared.transforms import Pose
 
 
 class HeightPatch(Protocol):
@@ -41,6 +36,10 @@ class HeightPatch(Protocol):
     def elevation(self) -> NDArray[np.float32]: ...
     @property
     def variance(self) -> NDArray[np.float32]: ...
+    @property
+    def upper(self) -> NDArray[np.float32]: ...
+    @property
+    def ceiling(self) -> NDArray[np.float32]: ...
 
 
 class Perceived(Protocol):
@@ -48,6 +47,8 @@ class Perceived(Protocol):
     def stamp_ns(self) -> int: ...
     @property
     def grid(self) -> HeightPatch: ...
+    @property
+    def sensor_in_world(self) -> NDArray[np.float64]: ...
 
 
 class TerrainMap:
@@ -64,6 +65,8 @@ class TerrainMap:
             drift=config.drift,
             ceiling=config.sigma_ceiling,
         )
+        self._footholds = Footholds(config.contact_sigma)
+        self._poses = PosesAsUsed()
         self._changed: set[tuple[int, int]] = set()
         self._sent: dict[tuple[int, int], MapTile] = {}
 
@@ -93,43 +96,77 @@ class TerrainMap:
             perceived.stamp_ns,
             self._rules,
         )
+        renew_bounds(
+            patch.upper,
+            patch.ceiling,
+            patch.row0,
+            patch.column0,
+            grid.row0,
+            grid.column0,
+            grid.elevation,
+            grid.upper,
+            grid.ceiling,
+            self._config.upper_decay,
+        )
+        gone = forget_contradicted(
+            patch.elevation,
+            patch.row0,
+            patch.column0,
+            grid.row0,
+            grid.column0,
+            grid.cell,
+            perceived.sensor_in_world,
+            grid.elevation,
+            grid.variance,
+            grid.upper,
+            grid.contradicted,
+            self._config.ray_clearance,
+            self._config.contradictions,
+        )
+        extent = joined(extent, gone)
         if extent.row_end > extent.row:
             self._renew_features(extent)
 
-    def worst_within(self, x: float, y: float, radius: float | None = None) -> WorstTerrain:
-        """Worst roughness and step height within `radius` m (the feet's reach by default) of world (x, y).
+    def remember(self, odometry: OdometryEstimate) -> None:
+        """Note a frame's pose, so that the map can follow when odometry corrects it."""
+        if np.isfinite(odometry.position_in_world).all():
+            self._poses.add(odometry.stamp_ns, odometry.world_from_body)
 
-        The worst is a high quantile, so that one bad cell does not rule the gait; its sigma is that of the cells
-        about as bad.
+    def touch(self, footholds: NDArray[np.float64], stamp_ns: int) -> None:
+        """Enter points (k, 3) in world, m, that bore a foot at `stamp_ns`."""
+        extent = self._footholds.enter(self.grid, footholds, stamp_ns, self._rules)
+        if extent is not None and extent.row_end > extent.row:
+            self._renew_features(extent)
+
+    @property
+    def cover(self) -> Cover:
+        """How much higher the ground looks than it bears."""
+        return self._footholds.cover
+
+    def follow(self, corrected: Mapping[int, Pose]) -> bool:
+        """Deform the map as odometry corrected its poses world_from_body, by stamp; says whether it did.
+
+        Changes too small to matter are left until they have grown.
         """
-        radius = self._config.query_radius if radius is None else radius
+        stamps, changes = self._poses.changes(corrected)
+        if not changes:
+            return False
+        shift, rise = largest_change(changes, corrected[int(stamps[-1])].position)
+        if shift < self._config.deform_shift and rise < self._config.deform_rise:
+            return False
+        deform(self.grid, stamps, changes)
+        self._poses.apply(stamps, changes)
+        self.renew_all()
+        return True
+
+    def renew_all(self) -> None:
+        """Features of every cell anew, and every tile to be sent."""
         grid = self.grid
-        row, column = grid.cell_of(x, y)
-        reach = math.ceil(radius / grid.cell)
-        rows = np.arange(row - reach, row + reach + 1)
-        columns = np.arange(column - reach, column + reach + 1)
-        dx = (rows + 0.5) * grid.cell - x
-        dy = (columns + 0.5) * grid.cell - y
-        inside = dx[:, None] ** 2 + dy[None, :] ** 2 <= radius**2
-        held = ((rows >= grid.row0) & (rows < grid.row0 + grid.size))[:, None] & (
-            (columns >= grid.column0) & (columns < grid.column0 + grid.size)
-        )[None, :]
-        place = np.ix_(rows % grid.size, columns % grid.size)
-        known = inside & held & np.isfinite(grid.roughness[place])
-        share = float(known.sum()) / max(1, int(inside.sum()))
-        if share < self._config.query_coverage:
-            return WorstTerrain(
-                roughness=np.nan, roughness_sigma=np.nan, step_height=np.nan, step_height_sigma=np.nan, known=share
-            )
-        roughness, roughness_sigma = self._worst(grid.roughness[place][known], grid.roughness_sigma[place][known])
-        step, step_sigma = self._worst(grid.step_height[place][known], grid.step_height_sigma[place][known])
-        return WorstTerrain(
-            roughness=roughness,
-            roughness_sigma=roughness_sigma,
-            step_height=step,
-            step_height_sigma=step_sigma,
-            known=share,
-        )
+        self._renew_features(Extent(grid.row0, grid.column0, grid.row0 + grid.size, grid.column0 + grid.size))
+
+    def worst_within(self, x: float, y: float, radius: float | None = None) -> WorstTerrain:
+        """Worst roughness and step height within `radius` m (the feet's reach by default) of world (x, y)."""
+        return worst_terrain(self.grid, x, y, radius or self._config.query_radius, self._config)
 
     def elevation_at(self, x: float, y: float) -> float:
         """World z in m of the cell that holds (x, y); NaN unknown."""
@@ -150,10 +187,6 @@ class TerrainMap:
                 self._sent[i, j] = tile
                 result.append(tile)
         return result
-
-    def _worst(self, values: NDArray[np.float32], sigmas: NDArray[np.float32]) -> tuple[float, float]:
-        worst = float(np.quantile(values, self._config.query_quantile))
-        return worst, float(np.median(sigmas[values >= worst]))
 
     def _holds_tile(self, i: int, j: int) -> bool:
         grid = self.grid

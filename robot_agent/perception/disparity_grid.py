@@ -40,6 +40,8 @@ class HeightGrid:
     cell: float  # m
     elevation: NDArray[np.float32]  # (n, n) world z in m of the cell's top, NaN unknown
     variance: NDArray[np.float32]  # (n, n) m^2
+    upper: NDArray[np.float32]  # (n, n) world z in m of the cell's very highest point, NaN unknown
+    ceiling: NDArray[np.float32]  # (n, n) world z in m of the lowest thing overhead, NaN where nothing was seen
 
     def at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """Elevation and variance of the cells that hold the points; NaN outside."""
@@ -66,7 +68,10 @@ class _Projection(NamedTuple):
 
 
 class _Gate(NamedTuple):
-    """Expected ground z = a x + b y + c, half height at the camera and its growth with distance, reach (m)."""
+    """Expected ground z = a x + b y + c, half height at the camera and its growth with distance, reach (m).
+
+    What is higher than the gate and within `headroom` m of the ground hangs overhead.
+    """
 
     a: float
     b: float
@@ -74,6 +79,7 @@ class _Gate(NamedTuple):
     height: float
     slope: float
     reach: float
+    headroom: float
 
 
 class _Cells(NamedTuple):
@@ -130,19 +136,33 @@ class DisparityGrid:
             position=np.ascontiguousarray(world_from_camera.position, dtype=np.float64),
         )
         a, b, c = (float(value) for value in ground)
-        gate = _Gate(a=a, b=b, c=c, height=config.height_gate, slope=config.gate_slope, reach=config.reach)
+        gate = _Gate(
+            a=a,
+            b=b,
+            c=c,
+            height=config.height_gate,
+            slope=config.gate_slope,
+            reach=config.reach,
+            headroom=config.headroom,
+        )
         cells = _Cells(row0=row, column0=column, size=size, cell=config.cell)
         tops = np.zeros((size * size, _TOP_FIELDS), dtype=np.float32)
         tops[:, _HIGHEST] = -np.inf
-        count = _list_points(disparity, projection, gate, cells, self._points, tops)
-        elevation, variance = _average_tops(count, self._points, tops, config.top_band, config.min_points)
-        _drop_lonely(elevation.reshape(size, size), config.companions, config.companion_step)
+        overhead = np.full(size * size, np.inf, dtype=np.float32)
+        count = _list_points(disparity, projection, gate, cells, self._points, tops, overhead)
+        elevation, variance, upper = _average_tops(count, self._points, tops, config.top_band, config.min_points)
+        overhead[np.isinf(overhead)] = np.nan
+        layers = [layer.reshape(size, size) for layer in (elevation, variance, upper, overhead)]
+        for surface in (layers[0], layers[3]):
+            _drop_lonely(surface, config.companions, config.companion_step)
         return HeightGrid(
             row0=row,
             column0=column,
             cell=config.cell,
-            elevation=elevation.reshape(size, size),
-            variance=variance.reshape(size, size),
+            elevation=layers[0],
+            variance=layers[1],
+            upper=np.where(np.isnan(layers[0]), np.float32(np.nan), layers[2]),
+            ceiling=layers[3],
         )
 
 
@@ -154,8 +174,12 @@ def _list_points(
     cells: _Cells,
     points: _Points,
     tops: NDArray[np.float32],
+    overhead: NDArray[np.float32],
 ) -> int:
-    """List the points within reach and gate; `tops` gets each cell's highest. Returns their number."""
+    """List the points within reach and gate; `tops` gets each cell's highest, `overhead` its lowest above the gate.
+
+    Returns the number listed.
+    """
     height, width = disparity.shape
     rotation, position = projection.rotation, projection.position
     # World direction of each column, to which a row adds its own; scaled to cells in the plane.
@@ -184,13 +208,18 @@ def _list_points(
                 continue
             z_slope = z_column[u] + z_row
             z = position[2] + depth * z_slope
-            beyond = abs(z - ground - gate.a * dx - gate.b * dy) - gate.height
-            if beyond > 0.0 and beyond * beyond > slope_squared * distance_squared:
+            above = z - ground - gate.a * dx - gate.b * dy
+            beyond = abs(above) - gate.height
+            outside = beyond > 0.0 and beyond * beyond > slope_squared * distance_squared
+            if outside and (above < 0.0 or above > gate.headroom):
                 continue
             row, column = int(x0 + dx * per_cell), int(y0 + dy * per_cell)
             if row < 0 or row >= cells.size or column < 0 or column >= cells.size:
                 continue
             index = row * cells.size + column
+            if outside:
+                overhead[index] = min(overhead[index], np.float32(z))
+                continue
             points.cell[listed] = index
             points.height[listed] = z
             listed += 1
@@ -205,8 +234,8 @@ def _list_points(
 @njit(cache=True)
 def _average_tops(
     count: int, points: _Points, tops: NDArray[np.float32], band: float, min_points: int
-) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Mean of the points in the band under each cell's highest, its top without a maximum's bias; and its variance."""
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
+    """Mean of the points in the band under each cell's highest, its top without a maximum's bias; variance; highest."""
     for k in range(count):
         index = points.cell[k]
         if points.height[k] >= tops[index, _HIGHEST] - band:
@@ -215,12 +244,14 @@ def _average_tops(
     cells = tops.shape[0]
     elevation = np.full(cells, np.nan, dtype=np.float32)
     variance = np.full(cells, np.nan, dtype=np.float32)
+    upper = np.full(cells, np.nan, dtype=np.float32)
     for index in range(cells):
         n = tops[index, _NUMBER]
         if n >= min_points:
             elevation[index] = tops[index, _SUM] / n
             variance[index] = tops[index, _VARIANCE] / (1.0 + (n - 1.0) / INDEPENDENT_POINTS)
-    return elevation, variance
+            upper[index] = tops[index, _HIGHEST]
+    return elevation, variance, upper
 
 
 @njit(cache=True)

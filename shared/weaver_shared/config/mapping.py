@@ -24,6 +24,12 @@ class MappingConfig(BaseModel):
     sigma_floor: Positive = 0.002  # a cell is never known better
     drift: Annotated[float, Field(ge=0.0)] = 0.004  # m per square root of a second: odometry and the ground change
     sigma_ceiling: Positive = 0.05  # an old cell is kept, and never thought worse than this
+    ray_clearance: Positive = 0.05  # m by which a line of sight must pass under a cell's top to speak against it
+    contradictions: Annotated[int, Field(ge=1, le=255)] = 4  # pictures in a row, after which the cell is forgotten
+    upper_decay: Fraction = 0.2  # of its height over the elevation that the upper bound loses when seen lower
+    contact_sigma: Positive = 0.008  # m of a foothold's height: sole, joint play and the pose over the last second
+    deform_shift: Positive = 0.01  # m in the plane, and
+    deform_rise: Positive = 0.004  # m upwards, by which odometry has to change its mind before the map is deformed
     window: Annotated[int, Field(ge=5)] = 11  # cells along the square whose features make a cell's roughness
     min_coverage: Fraction = 0.3  # of that square
     query_radius: Positive = 0.45  # m about the body: the feet and a stride

@@ -33,6 +33,7 @@ class GridConfig(_Settings):
     reach: Positive = 1.6  # m from the camera along the ground; height sigma there is about 1 cm
     height_gate: Positive = 0.22  # m above or below the plane of the feet, at the robot
     gate_slope: Annotated[float, Field(ge=0.0)] = 0.3  # the gate opens with distance: 17 degrees of slope pass
+    headroom: Positive = 1.0  # m above the ground up to which what hangs overhead matters to a robot of 0.33 m
     min_points: Annotated[int, Field(ge=1)] = 2
     companions: Annotated[int, Field(ge=0)] = 7  # cells of the 24 about one that must lie near its height
     companion_step: Positive = 0.04  # m that counts as near
