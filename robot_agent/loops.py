@@ -12,6 +12,7 @@ import numpy as np
 from robot_agent.adaptation import ParameterOverrides
 from robot_agent.body import Body, JointTargets
 from robot_agent.commands import CommandDesk, Situation
+from robot_agent.felt_queue import Felt, FeltQueue
 from robot_agent.pipeline import VisionPipeline, VisionTick, WalkPipeline, WalkTick
 from robot_agent.telemetry import Telemetry
 from robot_agent.timing import LoopMeter
@@ -21,7 +22,6 @@ from weaver_shared.latest import LatestSlot
 from weaver_shared.messages import (
     AdaptationReport,
     Health,
-    ImuBatch,
     NavigationGoal,
     OdometryEstimate,
     Presence,
@@ -153,38 +153,6 @@ class WalkLoop:
         self.desk.teleoperate(frame)
 
 
-class ImuQueue:
-    """Collects inertial samples from control ticks and hands out those up to a picture's stamp."""
-
-    def __init__(self, capacity: int = 2000) -> None:
-        self._batches: list[ImuBatch] = []
-        self._capacity = capacity
-
-    def add(self, batch: ImuBatch) -> None:
-        if batch.stamp_ns.size:
-            self._batches.append(batch)
-            del self._batches[: -self._capacity]
-
-    def newest_ns(self) -> int:
-        return int(self._batches[-1].stamp_ns[-1]) if self._batches else -1
-
-    def up_to(self, stamp_ns: int) -> ImuBatch:
-        """Remove and return all samples not later than `stamp_ns`."""
-        joined = ImuBatch.join(self._batches)
-        split = int(np.searchsorted(joined.stamp_ns, stamp_ns, side="right"))
-        rest = ImuBatch(
-            stamp_ns=joined.stamp_ns[split:],
-            angular_velocity_in_imu=joined.angular_velocity_in_imu[split:],
-            specific_force_in_imu=joined.specific_force_in_imu[split:],
-        )
-        self._batches = [rest] if rest.stamp_ns.size else []
-        return ImuBatch(
-            stamp_ns=joined.stamp_ns[:split],
-            angular_velocity_in_imu=joined.angular_velocity_in_imu[:split],
-            specific_force_in_imu=joined.specific_force_in_imu[:split],
-        )
-
-
 class VisionLoop:
     """Odometry, perception, map and adaptation of one robot; begins where the walk loop says the robot is."""
 
@@ -193,17 +161,17 @@ class VisionLoop:
         self._robot = robot
         self._bus = bus
         self._pipeline: VisionPipeline | None = None
-        self._imu = ImuQueue()
+        self._felt = FeltQueue()
         self._meter = LoopMeter("vision", robot.camera.rate)
         self._goal: LatestSlot[NavigationGoal] = LatestSlot()
         bus.subscribe(robot_id, topics.GOAL, lambda _id, _key, message: self._goal.put(message))
         self._frames = 0
 
     def feel(self, sensed: Proprioception) -> None:
-        self._imu.add(sensed.imu)
+        self._felt.add(sensed)
 
     def imu_covers(self, stamp_ns: int) -> bool:
-        return self._imu.newest_ns() >= stamp_ns
+        return self._felt.newest_imu_ns() >= stamp_ns
 
     def begin(self, world_from_body: Pose) -> None:
         """Start, or start again, with the robot at this position and heading."""
@@ -216,19 +184,20 @@ class VisionLoop:
 
     def step(self, frame: StereoFrame) -> VisionTick:
         """Process one pair whose IMU samples have arrived, and publish what came of it."""
-        tick = self.process(frame, self.take_imu(frame.stamp_ns))
+        tick = self.process(frame, self.take_felt(frame.stamp_ns))
         self.publish(tick)
         return tick
 
-    def take_imu(self, stamp_ns: int) -> ImuBatch:
-        return self._imu.up_to(stamp_ns)
+    def take_felt(self, stamp_ns: int) -> Felt:
+        """What was felt up to a picture's stamp, each reading once."""
+        return self._felt.up_to(stamp_ns)
 
-    def process(self, frame: StereoFrame, imu: ImuBatch) -> VisionTick:
+    def process(self, frame: StereoFrame, felt: Felt) -> VisionTick:
         """Process one pair without publishing: safe on another thread while this one goes on feeling."""
         if self._pipeline is None:
             raise RuntimeError("begin() comes before process()")
         self._meter.woke(frame.stamp_ns)
-        return self._pipeline.step(frame, imu)
+        return self._pipeline.step(frame, felt.imu, felt.legs)
 
     def publish(self, tick: VisionTick) -> None:
         publish = self._bus.publish

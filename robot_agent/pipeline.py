@@ -15,7 +15,7 @@ from robot_agent.adaptation import AdaptationController, ParameterOverrides
 from robot_agent.body import JointTargets
 from robot_agent.limits import JointGate
 from robot_agent.locomotion import Walker, WalkInput, WalkOutput
-from robot_agent.mapping import TerrainMap
+from robot_agent.mapping import FirmFeet, TerrainMap
 from robot_agent.modes import ModeMachine, Permission
 from robot_agent.navigation import FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
 from robot_agent.odometry import NavigationState, StatePropagator, StereoInertialOdometry
@@ -25,12 +25,14 @@ from robot_agent.safety import SafetySupervisor, Verdict
 from robot_agent.vigilance import Vigilance
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.navigation import RouteConfig
+from weaver_shared.leg_batch import LegBatch
 from weaver_shared.messages import (
     AdaptationReport,
     ImuBatch,
     MapTile,
     NavigationGoal,
     OdometryEstimate,
+    OdometryQuality,
     Proprioception,
     RoutePlan,
     StereoFrame,
@@ -64,6 +66,7 @@ class VisionPipeline:
         self._odometry = StereoInertialOdometry(calibration=calibration, imu=robot.imu, initial=initial)
         self._perception = TerrainPerception(calibration)
         self._map = TerrainMap()
+        self._feet = FirmFeet(robot)
         self._adaptation = AdaptationController(robot.adaptation)
         self._planner = RoutePlanner(robot)
         self._goal: NavigationGoal | None = None
@@ -75,10 +78,12 @@ class VisionPipeline:
         """Look for a way to this place from now on, or for none."""
         self._goal = goal if goal is not None and goal.active else None
 
-    def step(self, frame: StereoFrame, imu: ImuBatch) -> VisionTick:
-        """One stereo pair with all IMU samples since the previous one."""
+    def step(self, frame: StereoFrame, imu: ImuBatch, legs: LegBatch) -> VisionTick:
+        """One stereo pair with all IMU samples and readings of the legs since the previous one."""
         odometry = self._odometry.step(frame, imu)
         self._frames += 1
+        self._map.remember(odometry)
+        self._feel(legs, odometry)
         if self._frames % self._perceive_every:
             return VisionTick(odometry=odometry, terrain=None, report=None, tiles=())
         perceived = self._perception.step(frame, odometry)
@@ -95,6 +100,12 @@ class VisionPipeline:
             tiles=tuple(self._map.changed_tiles(frame.stamp_ns)),
             route=self._route(odometry),
         )
+
+    def _feel(self, legs: LegBatch, odometry: OdometryEstimate) -> None:
+        """Footholds enter the map while it is known where they are."""
+        footholds = self._feet.step(legs, odometry.world_from_body)
+        if len(footholds) and odometry.quality in (OdometryQuality.GOOD, OdometryQuality.DEGRADED):
+            self._map.touch(footholds, odometry.stamp_ns)
 
     def _route(self, odometry: OdometryEstimate) -> RoutePlan | None:
         """A way to the goal, looked for after every few perceived pictures."""

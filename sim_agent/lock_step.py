@@ -76,8 +76,8 @@ class LockStep:
         if camera_due:
             scene = self._body.scene_state()
             frame = self._renderer.render(scene, frame_sequence(self.robot, scene.stamp_ns))
-            imu = self._vision.take_imu(frame.stamp_ns)
-            self._seeing = self._workers.submit(self._vision.process, frame, imu)
+            felt = self._vision.take_felt(frame.stamp_ns)
+            self._seeing = self._workers.submit(self._vision.process, frame, felt)
         self._ticks += 1
         truth = self._body.truth() if self._tell_truth else None
         if truth is not None:
