@@ -13,6 +13,7 @@ from robot_agent.adaptation import ParameterOverrides
 from robot_agent.body import Body, JointTargets
 from robot_agent.commands import CommandDesk, Situation
 from robot_agent.felt_queue import Felt, FeltQueue
+from robot_agent.mapping import TerrainMap
 from robot_agent.pipeline import VisionPipeline, VisionTick, WalkPipeline, WalkTick
 from robot_agent.telemetry import Telemetry
 from robot_agent.timing import LoopMeter
@@ -181,6 +182,11 @@ class VisionLoop:
     @property
     def begun(self) -> bool:
         return self._pipeline is not None
+
+    @property
+    def map(self) -> TerrainMap | None:
+        """The terrain map, once begun; not to be touched while a picture is processed."""
+        return self._pipeline.map if self._pipeline is not None else None
 
     def step(self, frame: StereoFrame) -> VisionTick:
         """Process one pair whose IMU samples have arrived, and publish what came of it."""

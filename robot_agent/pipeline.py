@@ -74,6 +74,10 @@ class VisionPipeline:
         self._frames = 0
         self._adapted_ns: int | None = None
 
+    @property
+    def map(self) -> TerrainMap:
+        return self._map
+
     def seek(self, goal: NavigationGoal | None) -> None:
         """Look for a way to this place from now on, or for none."""
         self._goal = goal if goal is not None and goal.active else None

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import cv2
 
 from robot_agent.loops import CONTROL_RATE, VisionLoop, WalkLoop
+from robot_agent.mapping import TerrainMap
 from robot_agent.pipeline import VisionTick, WalkTick
 from sim_agent.body import SimulatedBody
 from sim_agent.rendering import StereoRenderer, frame_sequence
@@ -83,6 +84,12 @@ class LockStep:
         if truth is not None:
             self.bus.publish(self._robot_id, topics.TRUTH, truth)
         return Moment(walk=walk, sensed=sensed, vision=seen, truth=truth)
+
+    def map(self) -> TerrainMap | None:
+        """The robot's terrain map after the picture being processed."""
+        if self._seeing is not None:
+            self._seeing.result()
+        return self._vision.map
 
     def close(self) -> None:
         self._workers.shutdown()

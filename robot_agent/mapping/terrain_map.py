@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from robot_agent.mapping.bounds import renew_bounds
 from robot_agent.mapping.deformation import PosesAsUsed, deform, largest_change
 from robot_agent.mapping.elevation_fusion import Extent, FusionRules, fuse, joined
+from robot_agent.mapping.files.snapshot import MapSnapshot
 from robot_agent.mapping.footholds import Cover, Footholds
 from robot_agent.mapping.footprint import WorstTerrain, worst_terrain
 from robot_agent.mapping.rolling_grid import RollingGrid
@@ -158,6 +159,18 @@ class TerrainMap:
         self._poses.apply(stamps, changes)
         self.renew_all()
         return True
+
+    def snapshot(self) -> MapSnapshot:
+        """The map as it is now, to keep or to show."""
+        return MapSnapshot.of(self.grid)
+
+    def restore(self, snapshot: MapSnapshot) -> None:
+        """Enter a finished map about its own middle. Raises ValueError on cells of another size."""
+        rows, columns = snapshot.shape
+        x, y = snapshot.corner
+        self.grid.recentre(x + 0.5 * rows * snapshot.cell, y + 0.5 * columns * snapshot.cell)
+        snapshot.enter(self.grid)
+        self.renew_all()
 
     def renew_all(self) -> None:
         """Features of every cell anew, and every tile to be sent."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weaver_shared.errors import InputError
+from weaver_shared.npz_files import read_npz
 
 Array = NDArray[np.float64]
 
@@ -47,16 +47,7 @@ def load_terrain(path: Path, scale: float = 1.0) -> Cloud | ElevationGrid:
 
     Raises InputError that says what was found and what would be valid.
     """
-    if not path.is_file():
-        raise InputError(f"{path} is not a file; a terrain is an .npz file with a point cloud or an elevation grid")
-    try:
-        with path.open("rb") as stream:
-            archive = np.load(stream, allow_pickle=False)
-            if not isinstance(archive, Mapping):
-                raise InputError(f"{path} holds a bare array; a terrain is an .npz file with named arrays")
-            arrays = {key: archive[key] for key in archive}
-    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
-        raise InputError(f"{path} can not be read as an .npz file: {error}") from error
+    arrays = read_npz(path, "a terrain is an .npz file with a point cloud or an elevation grid")
     for key in CLOUD_KEYS:
         if key in arrays and arrays[key].shape[-1:] == (3,):
             return _cloud(arrays[key], _first(arrays, NORMAL_KEYS), path, scale)

@@ -7,12 +7,14 @@ import json
 import math
 import sys
 import time
+from pathlib import Path
 from typing import Any
 
 from tqdm import tqdm
 
 from robot_agent.adaptation import safe_gait
 from robot_agent.loops import CONTROL_RATE
+from robot_agent.mapping.files import MapSnapshot, load_map, save_map
 from sim_agent.lock_step import LockStep
 from sim_agent.run_log import RunLog
 from sim_agent.worlds import make_world
@@ -36,13 +38,18 @@ def main(arguments: list[str]) -> int:
 def walk(options: argparse.Namespace, *, tell_truth: bool = True) -> dict[str, Any]:
     """Stand up, walk to the goal, and report. Raises InputError on a goal that is refused."""
     goal = _goal(options.goal)
+    known = load_map(Path(options.known_map)) if options.known_map else None
     robot = load_robot(options.robot_description)
     world = make_world(options.world, options.seed)
     run = LockStep(robot, world, options.seed, tell_truth=tell_truth)
     log = RunLog(world=world, mass=robot.mass, dt=1.0 / CONTROL_RATE)
     started = time.monotonic()
     try:
+        if known is not None:
+            _enter(run, known, options.known_map)
         reached = _mission(run, log, goal, options)
+        if options.map:
+            _save(run, Path(options.map))
     finally:
         run.close()
     simulated = run.clock.now_ns() * 1e-9
@@ -76,6 +83,23 @@ def _mission(run: LockStep, log: RunLog, goal: Waypoint, options: argparse.Names
             if phase == "paused" or moment.walk.permission.mode == "FAULT":
                 return False
     return False
+
+
+def _enter(run: LockStep, known: MapSnapshot, name: str) -> None:
+    run.step()
+    terrain_map = run.map()
+    if terrain_map is None:
+        return
+    try:
+        terrain_map.restore(known)
+    except ValueError as error:
+        raise InputError(f"{name}: {error}") from error
+
+
+def _save(run: LockStep, path: Path) -> None:
+    terrain_map = run.map()
+    if terrain_map is not None:
+        save_map(path, terrain_map.snapshot())
 
 
 def _fix_parameters(run: LockStep) -> None:
@@ -128,6 +152,8 @@ def parser() -> argparse.ArgumentParser:
     result.add_argument("--adapt", choices=("on", "off"), default="on", help="off: constant, for rough ground")
     result.add_argument("--gait", default="tripod", help="gait of the robot description")
     result.add_argument("--seed", type=int, default=1, help="seed of the world and of all sensor noise")
+    result.add_argument("--map", metavar="FILE", help="save the terrain map at the end, .npz; see `weaver map`")
+    result.add_argument("--known-map", metavar="FILE", help="begin with a saved map of this place")
     result.add_argument("--timeout", type=float, default=600.0, help="simulated seconds before giving up")
     result.add_argument("--json", action="store_true", help="print one JSON object")
     return result
