@@ -102,10 +102,11 @@ def _grid(
         metres = without_fill_value(metres)
     if np.isfinite(metres).sum() < 100:
         raise InputError(f"{path} has {int(np.isfinite(metres).sum())} known cells; 100 are needed")
+    # Our own maps say what kind they are; their layers have other meanings by the same names.
     layers = {
         key: np.asarray(array, dtype=np.float64)
         for key, array in arrays.items()
-        if array is not heights and array.shape == heights.shape and np.issubdtype(array.dtype, np.floating)
+        if "kind" not in arrays and array is not heights and array.shape == heights.shape and array.dtype.kind == "f"
     }
     return ElevationGrid(heights=metres * scale, cell=length * scale, layers=layers)
 
