@@ -77,11 +77,12 @@ def deform(grid: RollingGrid, stamps: Stamps, changes: list[Pose]) -> None:
     rise = rise[held][order]
     moved = {name: getattr(grid, name)[old] + rise for name in ("elevation", "upper", "ceiling", "contact")}
     moved["variance"] = grid.variance[old]
+    accepted = grid.accepted[old]
     seen = seen[held][order]
     grid.clear()
     for name, values in moved.items():
         getattr(grid, name)[new] = values
-    grid.seen_ns[new] = seen
+    grid.seen_ns[new], grid.accepted[new] = seen, accepted
     _fill_gaps(grid)
 
 
@@ -143,5 +144,5 @@ def _fill_gaps(grid: RollingGrid) -> None:
     for layer in (grid.elevation, grid.variance):
         total = ndimage.convolve(np.where(known, layer, 0.0).astype(np.float64), around, mode="wrap")
         layer[gaps] = (total[gaps] / number[gaps]).astype(np.float32)
-    grid.upper[gaps] = grid.elevation[gaps]
+    grid.upper[gaps], grid.accepted[gaps] = grid.elevation[gaps], 1
     grid.seen_ns[gaps] = ndimage.maximum_filter(grid.seen_ns, size=3, mode="wrap")[gaps]

@@ -57,13 +57,16 @@ def fuse(
     elevation: NDArray[np.float32],
     variance: NDArray[np.float32],
     rejected: NDArray[np.uint8],
+    accepted: NDArray[np.uint8],
     seen_ns: NDArray[np.int64],
     stamp_ns: int,
     rules: FusionRules,
 ) -> Extent:
     """Merge measured heights (n, n), whose first cell is world cell (row0, column0), into the map's layers.
 
-    The layers are stored modulo their size; `window_row` and `window_column` say where the window begins.
+    The layers are stored modulo their size; `window_row` and `window_column` say where the window begins. A height far
+    off the map's is believed once it was `rejected` in a row as often as others were `accepted`, at most
+    `rules.rejections` times.
     """
     size = elevation.shape[0]
     floor = rules.floor * rules.floor
@@ -82,21 +85,22 @@ def fuse(
             noise = max(measured_variance[i, j], floor)
             old = elevation[r, c]
             if np.isnan(old):
-                elevation[r, c], variance[r, c], rejected[r, c] = z, noise, 0
+                elevation[r, c], variance[r, c], rejected[r, c], accepted[r, c] = z, noise, 0, 1
             else:
                 seconds = max(0.0, (stamp_ns - seen_ns[r, c]) * 1e-9)
                 prior = predicted_variance(variance[r, c], seconds, rules)
                 innovation = z - old
                 if abs(innovation) > rules.slack + rules.gate * np.sqrt(prior + noise):
                     rejected[r, c] += 1
-                    if rejected[r, c] < rules.rejections:
+                    if rejected[r, c] < min(rules.rejections, accepted[r, c]):
                         continue
-                    elevation[r, c], variance[r, c], rejected[r, c] = z, noise, 0
+                    elevation[r, c], variance[r, c], rejected[r, c], accepted[r, c] = z, noise, 0, 1
                 else:
                     gain = prior / (prior + noise)
                     elevation[r, c] = old + gain * innovation
                     variance[r, c] = max(floor, (1.0 - gain) * prior)
                     rejected[r, c] = 0
+                    accepted[r, c] = min(accepted[r, c] + 1, 255)
             seen_ns[r, c] = stamp_ns
             first_row, last_row = min(first_row, row), max(last_row, row)
             first_column, last_column = min(first_column, column), max(last_column, column)

@@ -74,8 +74,9 @@ class Footholds:
         held_columns = (column + offset >= grid.column0) & (column + offset < grid.column0 + grid.size)
         pressed = under & held_rows[:, None] & held_columns[None, :]
         grid.contact[stored] = np.where(pressed, np.float32(z), grid.contact[stored])
-        # A foot is one voice among many pictures: not believed against them by mere repetition.
-        rejected = np.zeros_like(grid.rejected)
+        # What a single foot says against the pictures is left to the contact layer.
+        rejected, accepted = np.zeros_like(grid.rejected), np.maximum(grid.accepted, 2)
+        grid.accepted[stored] = np.where(pressed, np.maximum(grid.accepted[stored], 1), grid.accepted[stored])
         extent: Extent = fuse(
             patch,
             variance,
@@ -86,6 +87,7 @@ class Footholds:
             grid.elevation,
             grid.variance,
             rejected,
+            accepted,
             grid.seen_ns,
             stamp_ns,
             rules,

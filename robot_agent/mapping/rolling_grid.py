@@ -38,6 +38,7 @@ class RollingGrid:
         self.ceiling = np.full(shape, np.nan, dtype=np.float32)  # lowest thing overhead
         self.contact = np.full(shape, np.nan, dtype=np.float32)  # where a foot was borne
         self.rejected = np.zeros(shape, dtype=np.uint8)
+        self.accepted = np.zeros(shape, dtype=np.uint8)  # heights that agreed with the cell's
         self.contradicted = np.zeros(shape, dtype=np.uint8)
         self.seen_ns = np.zeros(shape, dtype=np.int64)
 
@@ -98,6 +99,7 @@ class RollingGrid:
         for layer in self._float_layers:
             layer[rows, columns] = np.nan
         self.rejected[rows, columns] = 0
+        self.accepted[rows, columns] = 0
         self.contradicted[rows, columns] = 0
         self.seen_ns[rows, columns] = 0
 

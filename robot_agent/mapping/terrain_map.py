@@ -93,6 +93,7 @@ class TerrainMap:
             grid.elevation,
             grid.variance,
             grid.rejected,
+            grid.accepted,
             grid.seen_ns,
             perceived.stamp_ns,
             self._rules,

@@ -20,7 +20,7 @@ class Cell:
     def measure(self, z, sigma=0.005, stamp_ns=0):
         grid = self.grid
         patch, variance = np.full((1, 1), z, dtype=np.float32), np.full((1, 1), sigma**2, dtype=np.float32)
-        layers = (grid.elevation, grid.variance, grid.rejected, grid.seen_ns)
+        layers = (grid.elevation, grid.variance, grid.rejected, grid.accepted, grid.seen_ns)
         return fuse(patch, variance, 3, -4, grid.row0, grid.column0, *layers, stamp_ns, self.rules)
 
     @property
@@ -63,6 +63,18 @@ def test_one_outlier_changes_nothing_and_three_in_a_row_are_believed():
     assert cell.height == pytest.approx(0.3)
 
 
+def test_a_height_seen_once_gives_way_to_the_next_and_one_seen_twice_to_two():
+    cell = Cell()
+    cell.measure(-0.27)
+    cell.measure(0.0)
+    assert cell.height == 0.0
+    cell.measure(0.0)
+    cell.measure(0.3)
+    assert cell.height == 0.0
+    cell.measure(0.3)
+    assert cell.height == pytest.approx(0.3)
+
+
 def test_a_cell_long_unseen_is_kept_with_a_bounded_doubt():
     cell = Cell(RULES._replace(drift=0.004))
     cell.measure(0.1)
@@ -78,7 +90,7 @@ def test_unknown_measurements_and_cells_outside_the_window_change_nothing():
     assert extent.row_end <= extent.row
     grid = cell.grid
     patch = np.zeros((1, 1), dtype=np.float32)
-    layers = (grid.elevation, grid.variance, grid.rejected, grid.seen_ns)
+    layers = (grid.elevation, grid.variance, grid.rejected, grid.accepted, grid.seen_ns)
     extent = fuse(patch, patch, 10_000, 0, grid.row0, grid.column0, *layers, 0, RULES)
     assert extent.row_end <= extent.row
     assert np.isnan(grid.elevation).all()

@@ -26,6 +26,10 @@ LAYERS: dict[str, str] = {
 """Units of the layers that files carry, NaN unknown. Roughness and step height are indices, 0 to 1."""
 
 
+WELL_KNOWN = 255
+"""Sightings that a cell from a file is taken to have had."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MapSnapshot:
     """World cells from (row0, column0) on: cell (r, c) is centred at ((row0 + r + 0.5) * cell, ...) in world, m."""
@@ -66,7 +70,7 @@ class MapSnapshot:
         stored = (self.row0 + rows) % grid.size, (self.column0 + columns) % grid.size
         for name, layer in self.layers.items():
             getattr(grid, name)[stored] = layer[rows, columns]
-        grid.seen_ns[stored] = self.seen_ns[rows, columns]
+        grid.seen_ns[stored], grid.accepted[stored] = self.seen_ns[rows, columns], WELL_KNOWN
 
     @property
     def shape(self) -> tuple[int, int]:
