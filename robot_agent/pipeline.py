@@ -20,11 +20,12 @@ from robot_agent.modes import ModeMachine, Permission
 from robot_agent.navigation import FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
 from robot_agent.odometry import NavigationState, StatePropagator, StereoInertialOdometry
 from robot_agent.orders import Orders
-from robot_agent.perception import TerrainPerception
+from robot_agent.perception import FeltGround, Roughness, TerrainPerception
 from robot_agent.safety import SafetySupervisor, Verdict
 from robot_agent.vigilance import Vigilance
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.navigation import RouteConfig
+from weaver_shared.config.perception import PerceptionConfig
 from weaver_shared.leg_batch import LegBatch
 from weaver_shared.messages import (
     AdaptationReport,
@@ -67,6 +68,8 @@ class VisionPipeline:
         self._perception = TerrainPerception(calibration)
         self._map = TerrainMap()
         self._feet = FirmFeet(robot)
+        self._felt_ground = FeltGround(PerceptionConfig().felt, PerceptionConfig().features)
+        self._felt = Roughness.unknown()
         self._adaptation = AdaptationController(robot.adaptation)
         self._planner = RoutePlanner(robot)
         self._goal: NavigationGoal | None = None
@@ -96,7 +99,7 @@ class VisionPipeline:
         worst = self._map.worst_within(x, y)
         dt = 0.0 if self._adapted_ns is None else (frame.stamp_ns - self._adapted_ns) * 1e-9
         self._adapted_ns = frame.stamp_ns
-        report = self._adaptation.step(worst, perceived.estimate, frame.stamp_ns, dt)
+        report = self._adaptation.step(worst, perceived.estimate, frame.stamp_ns, dt, self._felt)
         return VisionTick(
             odometry=odometry,
             terrain=perceived.estimate,
@@ -106,9 +109,12 @@ class VisionPipeline:
         )
 
     def _feel(self, legs: LegBatch, odometry: OdometryEstimate) -> None:
-        """Footholds enter the map while it is known where they are."""
+        """Footholds enter the map, and speak of the ground, while it is known where they are."""
         footholds = self._feet.step(legs, odometry.world_from_body)
-        if len(footholds) and odometry.quality in (OdometryQuality.GOOD, OdometryQuality.DEGRADED):
+        if odometry.quality not in (OdometryQuality.GOOD, OdometryQuality.DEGRADED):
+            footholds = footholds[:0]
+        self._felt = self._felt_ground.step(footholds, odometry.position_in_world, odometry.stamp_ns)
+        if len(footholds):
             self._map.touch(footholds, odometry.stamp_ns)
 
     def _route(self, odometry: OdometryEstimate) -> RoutePlan | None:

@@ -13,8 +13,8 @@ from weaver_shared.config.adaptation import AdaptationConfig
 from weaver_shared.messages import AdaptationReport, GaitParameters, TerrainEstimate
 
 
-class WorstGround(Protocol):
-    """What the map says of the circle about the body; 0..1, NaN unknown."""
+class Ground(Protocol):
+    """What the map says of the circle about the body, or the feet of where they stood; 0..1, NaN unknown."""
 
     @property
     def roughness(self) -> float: ...
@@ -36,48 +36,66 @@ class AdaptationController:
         self._health = 0.0
         self._values = safe_gait(config)
 
-    def step(self, worst: WorstGround, ahead: TerrainEstimate, stamp_ns: int, dt: float) -> AdaptationReport:
+    def step(
+        self, worst: Ground, ahead: TerrainEstimate, stamp_ns: int, dt: float, felt: Ground | None = None
+    ) -> AdaptationReport:
         """Parameters for now; `dt` s since the last call. `applied` equals `desired`: overrides come later.
 
-        Unknown ground gives the rough end, and pictures of low health the whole safe gait.
+        Pictures of low health leave the ground to the feet, who know where they were and not where they go: their
+        figures count with one standard deviation more. Ground unknown to both gives the whole safe gait.
         """
         config = self._config
-        self._roughness = _with_backlash(self._roughness, worst.roughness, config.backlash)
-        self._step_height = _with_backlash(self._step_height, worst.step_height, config.backlash)
         self._health += (ahead.health - self._health) * (1.0 - math.exp(-dt / config.health_time))
-        trusted = self._health >= config.smallest_health and not math.isnan(worst.roughness)
-        wanted = gait_for(self._roughness, self._step_height, config) if trusted else safe_gait(config)
+        source, ground = self._rule(worst, felt)
+        self._roughness = _with_backlash(self._roughness, ground.roughness, config.backlash)
+        self._step_height = _with_backlash(self._step_height, ground.step_height, config.backlash)
+        known = source != "none"
+        wanted = gait_for(self._roughness, self._step_height, config) if known else safe_gait(config)
         for name in PARAMETERS:
             self._values[name] = rate_limited(self._values[name], wanted[name], getattr(config, name).rate * dt)
         parameters = GaitParameters(
-            stamp_ns=stamp_ns, confidence=self._confidence(worst) if trusted else 0.0, **self._values
+            stamp_ns=stamp_ns, confidence=self._confidence(ground, source) if known else 0.0, **self._values
         )
         return AdaptationReport(
             stamp_ns=stamp_ns,
-            roughness=worst.roughness,
-            roughness_sigma=worst.roughness_sigma,
-            step_height=worst.step_height,
-            step_height_sigma=worst.step_height_sigma,
+            roughness=ground.roughness,
+            roughness_sigma=ground.roughness_sigma,
+            step_height=ground.step_height,
+            step_height_sigma=ground.step_height_sigma,
             ahead_roughness=ahead.roughness,
             ahead_step_height=ahead.step_height,
-            source="vision" if trusted else "none",
+            source=source,
             desired=parameters,
             applied=parameters,
             overridden=(),
         )
 
+    def _rule(self, worst: Ground, felt: Ground | None) -> tuple[str, Ground]:
+        """Who knows the ground, and what they say of it."""
+        if self._health >= self._config.smallest_health:
+            return ("none" if math.isnan(worst.roughness) else "vision"), worst
+        if felt is None or math.isnan(felt.roughness):
+            return "none", worst
+        return "feet", _Indices(
+            min(1.0, felt.roughness + felt.roughness_sigma),
+            felt.roughness_sigma,
+            min(1.0, felt.step_height + felt.step_height_sigma),
+            felt.step_height_sigma,
+        )
+
     def unknown(self, stamp_ns: int, dt: float) -> AdaptationReport:
         """Parameters on their way to the safe gait, for when nothing is known of the ground at all."""
-        return self.step(_Unknown(), _unseen(stamp_ns), stamp_ns, dt)
+        return self.step(_Indices(), _unseen(stamp_ns), stamp_ns, dt)
 
-    def _confidence(self, worst: WorstGround) -> float:
-        sigma = max(worst.roughness_sigma, worst.step_height_sigma)
+    def _confidence(self, ground: Ground, source: str) -> float:
+        """0..1; feet speak of what is behind the robot, so at most half."""
+        sigma = max(ground.roughness_sigma, ground.step_height_sigma)
         known = 0.0 if math.isnan(sigma) else max(0.0, 1.0 - sigma / self._config.full_sigma)
-        return min(1.0, self._health) * known
+        return (min(1.0, self._health) if source == "vision" else 0.5) * known
 
 
 @dataclass(frozen=True, slots=True)
-class _Unknown:
+class _Indices:
     roughness: float = math.nan
     roughness_sigma: float = math.nan
     step_height: float = math.nan

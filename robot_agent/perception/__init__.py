@@ -1,7 +1,9 @@
 """Terrain from stereo pictures: matching, height grid, ground plane, features (ICRA'17 III-D)."""
 
 from robot_agent.perception.disparity_grid import HeightGrid
+from robot_agent.perception.features import Roughness
+from robot_agent.perception.felt_ground import FeltGround
 from robot_agent.perception.terrain import PerceivedTerrain, TerrainPerception
 from robot_agent.perception.warm_up import warm_up
 
-__all__ = ["HeightGrid", "PerceivedTerrain", "TerrainPerception", "warm_up"]
+__all__ = ["FeltGround", "HeightGrid", "PerceivedTerrain", "Roughness", "TerrainPerception", "warm_up"]

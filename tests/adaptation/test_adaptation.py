@@ -42,9 +42,9 @@ def seen(health=1.0):
     )
 
 
-def settled(controller, ground, seconds=20, health=1.0):
+def settled(controller, ground, seconds=20, health=1.0, felt=None):
     for k in range(seconds * 10):
-        report = controller.step(ground, seen(health), k * SECOND // 10, 0.1)
+        report = controller.step(ground, seen(health), k * SECOND // 10, 0.1, felt)
     return report
 
 
@@ -93,6 +93,31 @@ def test_unknown_ground_and_bad_pictures_lead_back_to_the_safe_gait():
         report = settled(controller, ground, health=health)
         assert values(report.desired) == pytest.approx(ROUGH)
         assert report.source == "none"
+
+
+UNKNOWN = Ground(math.nan, math.nan, math.nan, math.nan)
+
+
+def test_in_the_dark_the_feet_rule_and_count_with_their_doubt():
+    report = settled(AdaptationController(), Ground(0.9, 0.9), health=0.1, felt=Ground(0.2, 0.1, 0.05, 0.03))
+    assert report.source == "feet"
+    assert (report.roughness, report.step_height) == pytest.approx((0.25, 0.13))
+    assert values(report.desired) == pytest.approx(gait_for(0.25 + CONFIG.backlash, 0.13 + CONFIG.backlash, CONFIG))
+    assert 0.0 < report.desired.confidence <= 0.5
+
+
+def test_the_feet_are_not_asked_while_the_pictures_are_good():
+    report = settled(AdaptationController(), Ground(0.1, 0.1), felt=Ground(0.9, 0.9))
+    assert report.source == "vision"
+    assert values(report.desired) == pytest.approx(gait_for(0.1 + CONFIG.backlash, 0.1 + CONFIG.backlash, CONFIG))
+    unseen = settled(AdaptationController(), UNKNOWN, felt=Ground(0.0, 0.0))
+    assert unseen.source == "none"  # good pictures of other places: what lies ahead was neither seen nor felt
+
+
+def test_ground_neither_seen_nor_felt_is_walked_on_safely():
+    report = settled(AdaptationController(), Ground(0.0, 0.0), health=0.0, felt=UNKNOWN)
+    assert report.source == "none"
+    assert values(report.desired) == pytest.approx(ROUGH)
 
 
 @given(st.lists(st.tuples(index, index, st.floats(0.01, 0.3)), min_size=1, max_size=30))

@@ -80,6 +80,15 @@ class HealthConfig(_Settings):
     smallest: Fraction = 0.3  # below it nothing is concluded from a frame
 
 
+class FeltConfig(_Settings):
+    """The ground as the feet feel it."""
+
+    memory: Positive = 15.0  # s that a foothold counts
+    radius: Positive = 0.8  # m about the body within which it counts: the feet and a stride
+    fewest: Annotated[int, Field(ge=5)] = 8  # footholds
+    noise: Positive = 0.004  # m of a foothold's height on level ground
+
+
 class PerceptionConfig(_Settings):
     """The stage as a whole. `mode` paper is the literal chain: plain least squares, no gates on the plane."""
 
@@ -90,3 +99,4 @@ class PerceptionConfig(_Settings):
     patch: PatchConfig = PatchConfig()
     features: FeatureConfig = FeatureConfig()
     health: HealthConfig = HealthConfig()
+    felt: FeltConfig = FeltConfig()

@@ -76,7 +76,7 @@ class AdaptationReport:
     step_height_sigma: float
     ahead_roughness: float  # of the patch ahead
     ahead_step_height: float
-    source: str  # "vision", "none"
+    source: str  # who knows the ground: "vision", "feet", "none"
     desired: GaitParameters  # from the polynomials
     applied: GaitParameters  # after overrides and rate limits
     overridden: tuple[str, ...]  # names of GaitParameters fields an operator holds
