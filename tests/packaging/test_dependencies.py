@@ -14,8 +14,8 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 OURS = {"weaver_shared", "robot_agent", "sim_agent", "weaver_console"}
 EXTRAS = {
     "weaver_shared": [],
-    "robot_agent": ["robot"],
-    "sim_agent": ["robot", "sim"],
+    "robot_agent": ["robot", "study"],
+    "sim_agent": ["robot", "sim", "study"],
     "weaver_console": ["console", "analysis"],
 }
 
