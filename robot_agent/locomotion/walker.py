@@ -84,9 +84,11 @@ class Walker:
         self.reset(np.zeros(self._angles.size))
 
     def reset(self, joint_position: Array) -> None:
-        """Begin from where the joints are: hold them, sitting, until told to stand."""
-        angles = np.asarray(joint_position, dtype=np.float64).reshape(self._angles.shape)
-        angles = np.where(np.isfinite(angles), angles, self._angles)
+        """Begin from where the joints are: hold them, sitting, until told to stand. Bad readings change nothing."""
+        kept = self._angles.ravel()
+        read = np.asarray(joint_position, dtype=np.float64).ravel()
+        angles = np.where(np.isfinite(read), read, kept) if read.size == kept.size else kept
+        angles = angles.reshape(self._angles.shape)
         np.clip(angles, self._model.limits[:, 0], self._model.limits[:, 1], out=self._angles)
         self._target[:] = self._angles.ravel()
         self._posture, self._unhindered = "sitting", False

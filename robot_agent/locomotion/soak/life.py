@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 
 TICKS_OF_A_LIFE = 1500
 RATES = (50.0, 100.0, 200.0)  # Hz
+RESETS = 0.001
+"""Chance, a tick, that the torque is taken off the joints and given back."""
 ROUNDING = 1e-9
 Progress = Callable[[int, int], None]
 
@@ -89,11 +91,14 @@ def _live(robot: RobotDescription, rng: np.random.Generator, ticks: int, posture
     out: WalkOutput | None = None
     for tick in range(ticks):
         sensed = orders.next(joints, out)
+        let_go = bool(rng.random() < RESETS)
         try:
+            if let_go:
+                walker.reset(sensed.joint_position)
             out = walker.step(sensed)
         except Exception as error:  # whatever it is, it is what is looked for
             return tick + 1, f"raised {type(error).__name__}: {error}"
-        what = _wrong(out, joints, limits, speed * dt)
+        what = _wrong(out, joints, limits, np.inf if let_go else speed * dt)
         if what:
             return tick + 1, what
         postures[out.posture] += 1
@@ -101,7 +106,7 @@ def _live(robot: RobotDescription, rng: np.random.Generator, ticks: int, posture
     return ticks, ""
 
 
-def _wrong(out: WalkOutput, before: Array, limits: Array, largest_step: Array) -> str:
+def _wrong(out: WalkOutput, before: Array, limits: Array, largest_step: Array | float) -> str:
     joints = out.joint_position
     numbers = (
         joints, out.foot_in_body, out.foot_force, out.phase, out.velocity, out.ground_plane,

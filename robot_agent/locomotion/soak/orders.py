@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.locomotion.leg_order import LegOrder
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from robot_agent.locomotion.walk_tick import WalkInput, WalkOutput
 from weaver_shared.messages import GaitParameters
@@ -32,6 +33,7 @@ class RandomOrders:
         self._stand = True
         self._in_sequence = self._pack = False
         self._posing = NO_POSING
+        self._legs: tuple[LegOrder, ...] = ()
         self._down = np.array([0.0, 0.0, -1.0])
 
     def next(self, joints: Array, last: WalkOutput | None) -> WalkInput:
@@ -51,13 +53,14 @@ class RandomOrders:
             foot_contact=contact,
             gravity_in_body=self._spoilt(self._down),
             posing=self._posing,
+            legs=self._legs,
             in_sequence=self._in_sequence,
             pack=self._pack,
         )
 
     def _change(self) -> None:
         rng = self._rng
-        changes = rng.random(6) < CHANGES
+        changes = rng.random(7) < CHANGES
         if changes[0]:
             self._velocity = rng.normal(0.0, 0.2, 3) * rng.choice([0.0, 1.0, 1.0, 30.0])
         if changes[1]:
@@ -76,6 +79,21 @@ class RandomOrders:
         if changes[5]:
             tilted = rng.normal(0.0, 0.2, 3) * rng.choice([0.0, 1.0, 5.0]) - np.array([0.0, 0.0, 1.0])
             self._down = tilted / np.linalg.norm(tilted)
+        if changes[6]:
+            self._legs = tuple(self._leg() for _ in range(rng.choice([0, 0, 1, 2, 3])))
+            if self._legs and rng.random() < 0.7:
+                self._velocity = np.zeros(3)  # a walking robot lifts none
+
+    def _leg(self) -> LegOrder:
+        """A leg, not always one that the robot has, to be held by its tip or by its joints."""
+        rng, joints = self._rng, self._robot.joints_per_leg
+        tip = self._spoilt(rng.normal(0.0, 0.06, 3), chance=0.2)
+        angles = self._spoilt(rng.uniform(-2.0, 2.0, joints + int(rng.random() < 0.1)), chance=0.2)
+        return LegOrder(
+            leg=int(rng.integers(-1, self._robot.leg_count + 1)),
+            tip=(float(tip[0]), float(tip[1]), float(tip[2])),
+            joints=tuple(angles.tolist()) if rng.random() < 0.4 else None,
+        )
 
     def _spoilt(self, values: Array, *, chance: float = FAULTS) -> Array:
         """The values, or now and then a copy with one or all of them replaced, or of the wrong size."""
