@@ -146,6 +146,31 @@ LOAD = np.dtype(
     ]
 )
 
+POSING = np.dtype(
+    [
+        ("manual", F, (6,)),  # wanted, m and rad
+        ("automatic", N),  # wanted, and planned for the gait
+        ("levelling", N),  # wanted
+        ("wanted", N),  # any of the three
+        ("idle", N),  # nothing wanted, and nothing of an earlier order under way
+        ("amplitude", F, (LEGS, 6)),  # of every leg's swing in the automatic pose
+        ("slope", F, (6,)),  # steepest, per stride
+        ("rates", F, (6,)),  # largest, m/s and rad/s
+        ("steps", F, (3, 2)),  # the most that each of `pose_tick`'s slews goes in a tick, lengths and angles
+        ("first", N),  # ticks over which a slew takes its first mean
+        ("ticks", N, (3,)),
+        ("still", N, (3,)),  # ticks since a slew was asked to move
+        ("gains", F, (3,)),  # proportional, integral 1/s, derivative s of the levelling
+        ("largest", F),  # rad, of the levelling
+        ("rate_blend", F),  # of the low-pass on the tilt's rate, a tick
+        ("measured", N),  # whether `tilt` holds
+        ("tilt", F, (2,)),  # rad, of the last tick
+        ("tilt_rate", F, (2,)),
+        ("integral", F, (2,)),  # rad
+        ("turn", F, (2,)),  # rad, the levelling's answer
+    ]
+)
+
 JOINT = np.dtype(
     [
         ("foot", F, (LEGS, 3)),  # m in body, wanted
@@ -168,6 +193,8 @@ ANSWER = np.dtype(
         ("plane", F, (3,)),
         ("force", F, (LEGS,)),
         ("phase", F, (LEGS,)),
+        ("posing_rotation", F, (3, 3)),
+        ("posing_position", F, (3,)),
         ("foot", F, (LEGS, 3)),
         ("joint_position", F, (LEGS * JOINTS,)),
         ("swing", np.uint8, (LEGS,)),
@@ -215,6 +242,7 @@ WALK = np.dtype(
         ("gait", GAIT),
         ("body", BODY),
         ("load", LOAD),
+        ("posing", POSING),
         ("joint", JOINT),
         ("answer", ANSWER),
     ]

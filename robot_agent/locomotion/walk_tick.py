@@ -49,7 +49,6 @@ class WalkOutput(NamedTuple):
     joint_count: int
     posture: str  # sitting, rising, standing, walking, lowering
     stability: str  # what the margins allow: good, warn, slow, refuse
-    unposed_from_body: Pose  # how the body is posed
     leg_stages: tuple[str, ...]  # supporting, lifting, held or lowering
     events: tuple[str, ...]  # slips and stumbles of this tick
     further_reasons: tuple[str, ...]
@@ -104,6 +103,13 @@ class WalkOutput(NamedTuple):
     def ground_plane(self) -> Array:
         """(3,) a, b, c of z = a x + b y + c through the feet, in the un-posed body."""
         return self._part("plane", 3)
+
+    @property
+    def unposed_from_body(self) -> Pose:
+        """How the body is posed."""
+        return Pose(
+            rotation=self._part("posing_rotation", 9).reshape(3, 3), position=self._part("posing_position", 3)
+        )  # fmt: skip
 
     @property
     def ground_residual(self) -> float:

@@ -13,10 +13,8 @@ from robot_agent.locomotion.legs_tick import (
     foot_tick,
     hold_tick,
     joint_tick,
-    place_tick,
     sense_tick,
     solve_feet,
-    step_tick,
     walk_tick,
 )
 from robot_agent.locomotion.manipulation import Manipulation
@@ -27,7 +25,7 @@ from robot_agent.locomotion.stability_watch import StabilityWatch, is_static
 from robot_agent.locomotion.stepper import stand
 from robot_agent.locomotion.walk_tick import WalkInput, WalkOutput
 from robot_agent.locomotion.walker_memory import walker_memory
-from robot_agent.locomotion.whole_tick import UNSTABLE, answer_tick, usual_tick
+from robot_agent.locomotion.whole_tick import UNSTABLE, answer_tick, posed_tick, posed_walk_tick, usual_tick
 from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.robots import RobotDescription
 
@@ -69,8 +67,7 @@ class Walker:
         self._told = state.answer
         self._feels_ground = config.feel_ground
         self._unhindered = False  # on its legs, stable, with none in hand and without a pose
-        self._poser = Poser(config, model, robot.stance_in_body, np.array(robot.body.centre_of_mass_in_body), dt)
-        self._up = state.cut("senses", "up")
+        self._poser = Poser(config, model, robot.stance_in_body, np.array(robot.body.centre_of_mass_in_body), state, dt)
         self._manipulation = Manipulation(robot.leg_names, state, config, dt)
         self._footing = Footing(robot.leg_names, state, config.footing, dt)
         self._stability = StabilityWatch(config.stability, dt)
@@ -96,8 +93,6 @@ class Walker:
         self._poser.clear()
         self._manipulation.clear()
         self._in_air[:], self._walked[:] = False, 0.0
-        self._state.record["orders"]["posing_rotation"] = np.eye(3)
-        self._state.record["orders"]["posing_position"] = 0.0
 
     def begin_standing(self) -> Array:
         """Be standing at once, feet on their stance; returns the joint angles (joints,) that this means."""
@@ -110,16 +105,24 @@ class Walker:
         self._posture, self._unhindered = "standing", False
         return self._angles.ravel()
 
+    def carrying_torque(self) -> Array:
+        """Joint torques (joints,) N m with which the legs, as last measured, carry just what they are expected to."""
+        senses, joints = self._state.record["senses"], self._model.joints_per_leg
+        lever = np.einsum("lkj,k->lj", senses["jacobian"], senses["up"])[: self._load.size]
+        torque: Array = senses["own_torque"][: self._load.size] - lever * self._load[:, None]
+        return torque[:, :joints].ravel()
+
     def step(self, sensed: WalkInput) -> WalkOutput:
         """One control tick. Readings and orders that are not finite are replaced and named in `reasons`."""
         reasons = self._take(sensed)
         upright = self._posture in UPRIGHT
-        posing = sensed.posing
-        if self._unhindered and sensed.stand and not sensed.legs and (posing is NO_POSING or posing.idle):
-            done = usual_tick(self._memory, *self._calm_margins)
+        if self._unhindered and sensed.stand and not sensed.legs:
+            done = self._whole_tick(sensed.posing)
             if done != UNSTABLE:
                 self._posture, self._marched = UPRIGHT[done], 0.0
-                return self._answer(reasons, self._footing.step() if self._feels_ground else ())
+                return self._answer(
+                    reasons + self._poser.reasons, self._footing.step() if self._feels_ground else ()
+                )  # fmt: skip
         else:
             sense_tick(self._memory, upright)
         reasons += self._judge_stability(upright)
@@ -132,9 +135,19 @@ class Walker:
         else:
             self._footing.clear()
         answer_tick(self._memory)
-        idle = self._poser.idle and self._manipulation.idle and self._stability.idle
-        self._unhindered = idle and self._posture in UPRIGHT
+        self._unhindered = self._manipulation.idle and self._stability.idle and self._posture in UPRIGHT
         return self._answer(reasons + self._poser.reasons + self._manipulation.reasons, events)
+
+    def _whole_tick(self, posing: PosingOrder) -> int:
+        """All of an unhindered robot's tick at once, if it is stable."""
+        poser = self._poser
+        if poser.idle and (posing is NO_POSING or posing.idle):
+            return usual_tick(self._memory, *self._calm_margins)
+        poser.plan(posing, self._gait, walking=self._posture == "walking")
+        done = posed_tick(self._memory, *self._calm_margins, poser.slews)
+        if done != UNSTABLE:
+            poser.rest()
+        return done
 
     def _take(self, sensed: WalkInput) -> tuple[str, ...]:
         """Write a tick's readings and orders into the memory; what has the wrong size or kind counts as missing."""
@@ -223,24 +236,10 @@ class Walker:
         if self._poser.idle and posing.idle:
             walking = walk_tick(self._memory)
         else:
-            walking = step_tick(self._memory)
-            self._pose(posing, walking)
-            place_tick(self._memory)
+            self._poser.plan(posing, self._gait, walking=self._posture == "walking")
+            walking = posed_walk_tick(self._memory, self._poser.slews)
+            self._poser.rest()
         self._posture = "walking" if walking else "standing"
-
-    def _pose(self, posing: PosingOrder, walking: bool) -> None:
-        """Pose the body against its un-posed place, in which the feet's places are wanted."""
-        gait, orders = self._state.record["gait"], self._state.record["orders"]
-        pose = self._poser.step(
-            posing,
-            self._up,
-            walking=walking,
-            gait=self._gait,
-            leg_phase=self._phase,
-            swing=1.0 - float(gait["duty"]),
-            frequency=float(gait["frequency"]),
-        )
-        orders["posing_rotation"], orders["posing_position"] = pose.rotation, pose.position
 
     def _begin_rising(self, in_sequence: bool) -> None:
         """First bring the feet under their stance, over the air where the legs are folded away, then push up."""
@@ -331,7 +330,6 @@ class Walker:
             self._target.size,
             self._posture,
             self._stability.level,
-            self._poser.pose,
             self._manipulation.stages,
             events,
             reasons,

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from robot_agent.locomotion import openshc
+from robot_agent.locomotion.ideal_walk import IdealWalk
 from robot_agent.locomotion.leg_order import LegOrder
 from robot_agent.locomotion.posing.order import PosingOrder
 from robot_agent.locomotion.walk_tick import WalkInput
@@ -15,13 +14,16 @@ from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.messages import GaitParameters
 from weaver_shared.robots import RobotDescription, load_robot
 
+WARMING_VELOCITY = np.array([0.1, 0.02, 0.05])
+"""m/s, rad/s."""
+
 
 def warm_up(robot: RobotDescription | None = None) -> None:
     """Walk a robot (Weaver unless told otherwise) for a stride with and without ground contact, and OpenSHC's legs."""
     openshc.warm_up()
     robot = robot or load_robot()
     for feel_ground in (True, False):
-        tick = walking_tick(robot, LocomotionConfig(feel_ground=feel_ground), frequency=1.0)
+        tick = IdealWalk(robot, LocomotionConfig(feel_ground=feel_ground), velocity=WARMING_VELOCITY).replay(120)
         for _ in range(120):
             tick()
     pose_and_lift(robot)
@@ -53,34 +55,3 @@ def pose_and_lift(robot: RobotDescription) -> None:
                 in_sequence=True,
             )
             joints = walker.step(sensed).joint_position
-
-
-def walking_tick(
-    robot: RobotDescription, config: LocomotionConfig, *, frequency: float, dt: float = 0.01
-) -> Callable[[], None]:
-    """A robot walking on nothing but its own commands, as a function that takes one tick; for timing and warming up."""
-    walker = Walker(robot, config, dt)
-    joints = walker.begin_standing()
-    parameters = GaitParameters(
-        stamp_ns=0, virtual_stiffness=1000.0, stride_frequency=frequency, stride_height=0.05, confidence=1.0
-    )
-    velocity, gravity = np.array([0.1, 0.02, 0.05]), np.array([0.0, 0.0, -1.0])
-    contact = np.ones(robot.leg_count, dtype=np.bool_)
-    torque = np.full(robot.joint_count, 0.1)
-
-    def tick() -> None:
-        nonlocal joints
-        sensed = WalkInput(
-            stamp_ns=0,
-            velocity=velocity,
-            parameters=parameters,
-            gait="tripod",
-            stand=True,
-            joint_position=joints,
-            joint_torque=torque,
-            foot_contact=contact,
-            gravity_in_body=gravity,
-        )
-        joints = walker.step(sensed).joint_position
-
-    return tick

@@ -55,6 +55,8 @@ def test_bad_input_gets_one_sentence(arguments, says):
 def test_the_benchmark_reports_its_keys(capsys):
     assert bench_tick.main(["--json", "--ticks", "50"]) == 0
     figures = json.loads(capsys.readouterr().out)["tick_us"]
-    assert set(figures) == {"five_joint_walk", "five_joint_admittance", "three_joint_walk", "three_joint_admittance"}
+    legs, stages = ("five_joint", "bullet", "three_joint"), ("walk", "admittance", "posing")
+    assert set(figures) == {f"{kind}_{stage}" for kind in legs for stage in stages}
     for figure in figures.values():
         assert 0.0 < figure["median"] <= figure["p99"]
+        assert figure["yardsticks"] == pytest.approx(figure["median"] / figure["yardstick"], rel=0.02)

@@ -7,11 +7,12 @@ from hypothesis import strategies as st
 
 from robot_agent.kinematics import LegModel
 from robot_agent.locomotion import Walker, WalkInput
-from robot_agent.locomotion.posing.automatic import automatic_pose, bump, leg_amplitudes, steepest_slope
-from robot_agent.locomotion.posing.levelling import Levelling, tilt_error
+from robot_agent.locomotion.posing.automatic import bump, leg_amplitudes, steepest_slope, sway
+from robot_agent.locomotion.posing.levelling import step_levelling, tilt_error, tune_levelling
 from robot_agent.locomotion.posing.order import PosingOrder, bounded
 from robot_agent.locomotion.posing.reach import PoseReach, pose_of
 from robot_agent.locomotion.posing.slew import Slew
+from robot_agent.locomotion.walk_state import POSING as LAYOUT
 from weaver_shared.config.locomotion import AutomaticPose, LevellingConfig, LocomotionConfig, PosingConfig
 from weaver_shared.messages import GaitParameters
 from weaver_shared.robots import load_robot
@@ -99,7 +100,9 @@ def test_the_automatic_pose_never_exceeds_its_rate(name, frequency, phase):
     step = 1e-4
 
     def pose(at):
-        return automatic_pose((at + gait.offsets) % 1.0, gait.swing, amplitude, slope, rate, frequency)
+        result = np.zeros(6)
+        sway((at + gait.offsets) % 1.0, gait.swing, amplitude, slope, rate, frequency, result)
+        return result
 
     speed = (pose(phase + step * frequency) - pose(phase)) / step
     assert (np.abs(speed) <= rate * 1.01 + 1e-9).all()
@@ -109,29 +112,49 @@ def test_the_body_leans_away_from_the_feet_in_the_air():
     amplitude = leg_amplitudes(ROBOT.stance_in_body, AutomaticPose(shift=0.02, roll=0.05, pitch=0.05))
     phases = np.ones(6)
     phases[5] = 0.15  # the front left foot in mid swing
-    x, y, _, roll, pitch, _ = automatic_pose(phases, 0.3, amplitude, np.ones(6), np.full(6, 9.0), 1.0)
+    pose = np.zeros(6)
+    sway(phases, 0.3, amplitude, np.ones(6), np.full(6, 9.0), 1.0, pose)
+    x, y, _, roll, pitch, _ = pose
     assert x < 0.0
     assert y < 0.0
     assert roll > 0.0  # left side up
     assert pitch < 0.0  # nose up
 
 
+class Levelling:
+    """The walker's levelling alone."""
+
+    def __init__(self):
+        self.memory = np.zeros(1, LAYOUT)[0]
+        tune_levelling(self.memory, LevellingConfig(), DT)
+
+    def step(self, error):
+        step_levelling(self.memory, np.asarray(error), DT)
+        return self.memory["turn"].copy()
+
+
+def tilt_of(up):
+    error = np.zeros(2)
+    tilt_error(np.asarray(up), error)
+    return error
+
+
 @pytest.mark.parametrize("tilt", [(0.1, -0.05), (-0.2, 0.0), (0.0, 0.15)])
 def test_levelling_undoes_a_steady_tilt(tilt):
-    levelling, turn = Levelling(LevellingConfig(), DT), np.zeros(2)
+    levelling, turn = Levelling(), np.zeros(2)
     ground = rotation_from_rpy(*tilt, 0.0)
     delay = [np.zeros(2)] * 8  # the legs answer later
     for _ in range(600):
         level = rotation_from_rpy(*delay[0], 0.0)
         up = (ground @ level).T @ [0.0, 0.0, 1.0]
-        turn = levelling.step(tilt_error(up))
+        turn = levelling.step(tilt_of(up))
         delay = [*delay[1:], turn.copy()]
-    assert np.degrees(np.abs(tilt_error((ground @ level).T @ [0.0, 0.0, 1.0]))).max() < 0.1
+    assert np.degrees(np.abs(tilt_of((ground @ level).T @ [0.0, 0.0, 1.0]))).max() < 0.1
 
 
 def test_a_levelling_that_was_at_its_limit_lets_go_at_once():
     config = LevellingConfig()
-    levelling = Levelling(config, DT)
+    levelling = Levelling()
     for _ in range(2000):  # far beyond what it may do
         turn = levelling.step(np.array([0.6, 0.0]))
     assert turn[0] == config.largest

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.kinematics.compiled import kernel
 from weaver_shared.config.locomotion import AutomaticPose
 
 Array = NDArray[np.float64]
@@ -48,14 +49,21 @@ def steepest_slope(offset: Array, swing: float, amplitude: Array) -> Array:
     return result
 
 
-def automatic_pose(
-    leg_phase: Array, swing: float, amplitude: Array, slope: Array, rate: Array, frequency: float
-) -> Array:
-    """Sum over the legs, (6,), made smaller where a fast gait would exceed `rate` (6,) per s.
+@kernel
+def sway(
+    leg_phase: Array, swing: float, amplitude: Array, slope: Array, rates: Array, frequency: float, values: Array
+) -> None:
+    """Fill `values` (6,) with the sum over the legs, made smaller where a fast gait would exceed `rates` (6,) per s.
 
     `leg_phase` (legs,) is 0 at lift-off; `swing` the fraction of a stride in the air; `amplitude` (legs, 6); `slope`
-    (6,) that of `steepest_slope`.
+    (6,) that of `steepest_slope`; `frequency` Hz.
     """
-    factor = np.minimum(1.0, rate / np.maximum(slope * frequency, 1e-12))
-    result: Array = factor * (bump(leg_phase / swing) @ amplitude)
-    return result
+    values[:] = 0.0
+    for leg in range(leg_phase.size):
+        s = leg_phase[leg] / swing
+        if s < 1.0:
+            height = 64.0 * (s * (1.0 - s)) ** 3
+            for k in range(6):
+                values[k] += height * amplitude[leg, k]
+    for k in range(6):
+        values[k] *= min(1.0, rates[k] / max(slope[k] * frequency, 1e-12))

@@ -1,51 +1,49 @@
 """Levelling by the IMU: a PID on the body's tilt whose answer turns the body over its feet (OpenSHC'20 IV-B)."""
 
-from __future__ import annotations
+from math import atan2, sqrt
 
-import numpy as np
-from numpy.typing import NDArray
-
+from robot_agent.kinematics.compiled import kernel
+from robot_agent.locomotion.walk_state import Array, Record
 from weaver_shared.config.locomotion import LevellingConfig
 
-Array = NDArray[np.float64]
+
+def tune_levelling(posing: Record, config: LevellingConfig, dt: float) -> None:
+    """Write gains and limits into the memory of the posing."""
+    posing["gains"] = config.proportional, config.integral, config.derivative
+    posing["largest"] = config.largest
+    posing["rate_blend"] = dt / (config.rate_time + dt)
 
 
-class Levelling:
-    """Roll and pitch, rad. The integral stops where the answer is at its limit and would be pushed further."""
-
-    def __init__(self, config: LevellingConfig, dt: float) -> None:
-        self._config = config
-        self._dt = dt
-        self._blend = dt / (config.rate_time + dt)
-        self.clear()
-
-    def clear(self) -> None:
-        self._integral = np.zeros(2)
-        self._rate = np.zeros(2)
-        self._last: Array | None = None
-        self.answer = np.zeros(2)
-
-    def step(self, error: Array) -> Array:
-        """Turn (2,) rad to be added about x and y, for a tilt `error` (2,) rad still to be undone."""
-        config = self._config
-        if self._last is not None:
-            self._rate += self._blend * ((error - self._last) / self._dt - self._rate)
-        self._last = error.copy()
-        free = config.proportional * error + self._integral + config.derivative * self._rate
-        grown = self._integral + config.integral * error * self._dt
-        growing = np.abs(grown) > np.abs(self._integral)
-        saturated = np.abs(free) >= config.largest
-        self._integral = np.where(saturated & growing, self._integral, grown)
-        np.clip(self._integral, -config.largest, config.largest, out=self._integral)
-        self.answer = np.clip(free, -config.largest, config.largest)
-        return self.answer
+@kernel
+def clear_levelling(posing: Record) -> None:
+    posing.measured = False
+    for k in range(2):
+        posing.integral[k] = posing.tilt_rate[k] = posing.turn[k] = 0.0
 
 
-def tilt_error(up_in_wanted: Array) -> Array:
-    """The turn (2,) rad about x and y that brings z onto `up_in_wanted` (3,), up as the wanted body would feel it."""
-    x, y, z = up_in_wanted
-    sine = float(np.hypot(x, y))
-    if sine < 1e-12:
-        return np.zeros(2)
-    angle = float(np.arctan2(sine, z))
-    return np.array([-y, x]) * (angle / sine)
+@kernel
+def step_levelling(posing: Record, error: Array, dt: float) -> None:
+    """Set `turn` (2,) rad about x and y for a tilt `error` (2,) rad still to be undone.
+
+    The integral stops where the answer is at its limit and would be pushed further.
+    """
+    proportional, integral, derivative = posing.gains
+    for k in range(2):
+        if posing.measured:
+            rate = (error[k] - posing.tilt[k]) / dt
+            posing.tilt_rate[k] += posing.rate_blend * (rate - posing.tilt_rate[k])
+        posing.tilt[k] = error[k]
+        free = proportional * error[k] + posing.integral[k] + derivative * posing.tilt_rate[k]
+        grown = posing.integral[k] + integral * error[k] * dt
+        if abs(free) < posing.largest or abs(grown) <= abs(posing.integral[k]):
+            posing.integral[k] = min(max(grown, -posing.largest), posing.largest)
+        posing.turn[k] = min(max(free, -posing.largest), posing.largest)
+    posing.measured = True
+
+
+@kernel
+def tilt_error(up: Array, error: Array) -> None:
+    """Fill `error` (2,) with the turn, rad about x and y, that brings z onto `up` (3,), as the wanted body feels it."""
+    sine = sqrt(up[0] * up[0] + up[1] * up[1])
+    scale = atan2(sine, up[2]) / sine if sine > 1e-12 else 0.0
+    error[0], error[1] = -up[1] * scale, up[0] * scale

@@ -40,6 +40,11 @@ class PoseReach:
         self._low, self._high, self._trials = 1.0, 1.0, HALVINGS
 
     @property
+    def settled(self) -> bool:
+        """Whether no trial is left to do for what was asked."""
+        return self._low >= self._high or self._trials >= HALVINGS
+
+    @property
     def shortened(self) -> bool:
         """Whether less than what was asked can be done."""
         return self._trials > 0 and self._low < 1.0
@@ -49,7 +54,7 @@ class PoseReach:
         if (wanted != self._wanted).any() or room != self._room:
             self._wanted, self._room = wanted.copy(), room
             self._low, self._high, self._trials = 0.0, 1.0, 0
-        if self._low < self._high and self._trials < HALVINGS:
+        if not self.settled:
             trial = 1.0 if self._trials == 0 else 0.5 * (self._low + self._high)
             if self.within(trial * wanted, room):
                 self._low = trial

@@ -41,14 +41,15 @@ class Slew:
         """One tick towards `wanted` (6,)."""
         if self.at_rest and (wanted == self._limited).all():
             return self.value
-        moved = _follow(wanted, self._steps, self._limited, self._first, self._second, self._ticks, self.value)
+        moved = follow(wanted, self._steps, self._limited, self._first, self._second, self._ticks, self.value)
         self._still = 0 if moved else self._still + 1
         self._ticks += 1
         return self.value
 
 
 @kernel
-def _follow(wanted: Array, steps: Array, limited: Array, first: Array, second: Array, tick: int, value: Array) -> bool:
+def follow(wanted: Array, steps: Array, limited: Array, first: Array, second: Array, tick: int, value: Array) -> bool:
+    """One tick of six values (6,): the rate limit, then both means, whose last inputs are rows of `first`, `second`."""
     far = 0.0
     for part in range(2):
         gap = 0.0
