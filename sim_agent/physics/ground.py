@@ -19,22 +19,21 @@ with quiet():
 def load_ground(world: World, client: int) -> None:
     """Create everything fixed, one body per material for boxes: hundreds of them then cost a step no more than one."""
     for plane in world.planes:
-        _load_plane(plane, client)
+        _set_contact(_load_plane(plane, client), plane.material, world.friction, client)
     for name in MATERIALS:
         boxes = [box for box in world.boxes if box.material == name]
         if boxes:
-            _load_boxes(boxes, name, client)
+            _set_contact(_load_boxes(boxes, name, client), name, world.friction, client)
     for heightfield in world.heightfields:
-        _load_heightfield(heightfield, client)
+        _set_contact(_load_heightfield(heightfield, client), heightfield.material, world.friction, client)
 
 
-def _load_plane(plane: Plane, client: int) -> None:
+def _load_plane(plane: Plane, client: int) -> int:
     shape = pybullet.createCollisionShape(pybullet.GEOM_PLANE, planeNormal=[0, 0, 1], physicsClientId=client)
-    body = pybullet.createMultiBody(0.0, shape, basePosition=[0.0, 0.0, plane.height], physicsClientId=client)
-    _set_contact(body, plane.material, client)
+    return _fixed(shape, [0.0, 0.0, plane.height], client)
 
 
-def _load_boxes(boxes: list[Box], material: str, client: int) -> None:
+def _load_boxes(boxes: list[Box], material: str, client: int) -> int:
     root = Xml.Element("robot", name=material)
     link = Xml.SubElement(root, "link", name="ground")
     for box in boxes:
@@ -45,11 +44,11 @@ def _load_boxes(boxes: list[Box], material: str, client: int) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "ground.urdf"
         path.write_text(Xml.tostring(root, encoding="unicode"))
-        body = pybullet.loadURDF(str(path), useFixedBase=True, physicsClientId=client)
-    _set_contact(body, material, client)
+        body: int = pybullet.loadURDF(str(path), useFixedBase=True, physicsClientId=client)
+    return body
 
 
-def _load_heightfield(field: Heightfield, client: int) -> None:
+def _load_heightfield(field: Heightfield, client: int) -> int:
     rows, columns = field.z.shape
     shape = pybullet.createCollisionShape(
         pybullet.GEOM_HEIGHTFIELD,
@@ -66,16 +65,20 @@ def _load_heightfield(field: Heightfield, client: int) -> None:
         field.origin[1] + (columns - 1) * field.cell / 2,
         float(field.z.min() + field.z.max()) / 2,  # Bullet centres the heights
     ]
-    body = pybullet.createMultiBody(0.0, shape, basePosition=middle, physicsClientId=client)
-    _set_contact(body, field.material, client)
+    return _fixed(shape, middle, client)
 
 
-def _set_contact(body: int, name: str, client: int) -> None:
+def _fixed(shape: int, position: list[float], client: int) -> int:
+    body: int = pybullet.createMultiBody(0.0, shape, basePosition=position, physicsClientId=client)
+    return body
+
+
+def _set_contact(body: int, name: str, friction: float, client: int) -> None:
     material = MATERIALS[name]
     pybullet.changeDynamics(
         body,
         -1,
-        lateralFriction=material.friction,
+        lateralFriction=material.friction * friction,
         spinningFriction=0.0,
         rollingFriction=0.0,
         restitution=0.0,

@@ -65,7 +65,7 @@ class World:
     """Everything fixed around the robot.
 
     `start` is the body's x, y (m) and yaw (rad) when a run begins; `bounds` (xmin, xmax, ymin, ymax) is where the
-    world is meant to be walked.
+    world is meant to be walked. `friction` is a factor on the coefficients of all materials: damp or dusty ground.
     """
 
     name: str
@@ -76,6 +76,7 @@ class World:
     boxes: tuple[Box, ...] = ()
     heightfields: tuple[Heightfield, ...] = ()
     segments: tuple[Segment, ...] = ()
+    friction: float = 1.0
 
     @property
     def solids(self) -> tuple[Plane | Box | Heightfield, ...]:

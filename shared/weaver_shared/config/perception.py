@@ -86,7 +86,7 @@ class FeltConfig(_Settings):
     memory: Positive = 15.0  # s that a foothold counts
     radius: Positive = 0.8  # m about the body within which it counts: the feet and a stride
     fewest: Annotated[int, Field(ge=5)] = 8  # footholds
-    noise: Positive = 0.004  # m of a foothold's height on level ground
+    noise: Positive = 0.002  # m of a foothold's height, measured on level ground
 
 
 class PerceptionConfig(_Settings):

@@ -1,0 +1,94 @@
+"""`weaver study testbed`: the paper's testbed experiment, adaptive against fixed, with tables, figures and a report."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from sim_agent.testbed_study.cluster import walk_all
+from sim_agent.testbed_study.figures import StudyFigures, study_figures
+from sim_agent.testbed_study.plan import plan
+from sim_agent.testbed_study.plots import draw_all
+from sim_agent.testbed_study.report import overall_table, segment_table, write_report
+from sim_agent.testbed_study.store import RecordStore
+from sim_agent.testbed_study.walk import WalkRecord, outcome_of
+from sim_agent.worlds import make_world
+from weaver_shared.errors import InputError
+from weaver_shared.robots import load_robot
+
+WHOLE_COURSE = 8.4  # m, into segment G
+
+
+def main(arguments: list[str]) -> int:
+    options = _parser().parse_args(arguments)
+    if options.runs < 1 or options.jobs < 1:
+        raise InputError("--runs and --jobs are whole numbers from 1")
+    if not 1.0 <= options.distance <= WHOLE_COURSE:
+        raise InputError(f"--distance {options.distance} m is not on the course; valid are 1 to {WHOLE_COURSE}")
+    store = RecordStore(Path(options.out))
+    records = _records(options, store)
+    world, mass = make_world("testbed", options.world_seed), load_robot().mass
+    figures = study_figures(records, world, mass)
+    written = write_report(store.folder, figures, draw_all(records, world, mass, store.folder))
+    if options.json:
+        print(json.dumps(_finite(_as_json(figures, records)), allow_nan=False))
+        return 0
+    for table in (overall_table(figures), segment_table(figures)):
+        widths = [max(len(row[column]) for row in table) for column in range(len(table[0]))]
+        for row in table:
+            print("  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)))
+        print()
+    print("report:", ", ".join(str(path) for path in written))
+    return 0
+
+
+def _records(options: argparse.Namespace, store: RecordStore) -> list[WalkRecord]:
+    """Every planned walk's record: those of earlier runs from the store, the others walked now."""
+    walks = plan(options.runs, options.seed, options.world_seed, options.distance)
+    records = {walk.name: record for walk in walks if (record := store.load(walk)) is not None}
+    missing = [walk for walk in walks if walk.name not in records]
+    with tqdm(total=len(walks), initial=len(records), unit=" walks", file=sys.stderr) as bar:
+        for record in walk_all(missing, options.jobs, options.scheduler):
+            store.save(record)
+            records[record.plan.name] = record
+            bar.update()
+    return [records[walk.name] for walk in walks]
+
+
+def _as_json(figures: StudyFigures, records: list[WalkRecord]) -> dict[str, Any]:
+    return {**asdict(figures), "walks": [outcome_of(record) for record in records]}
+
+
+def _finite(value: Any) -> Any:
+    """JSON has no NaN: what is not known becomes null."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="weaver study testbed",
+        description="Walk the testbed's segments A to G with adaptive and with fixed gait parameters, each walk with "
+        "its own start, friction and sensor noise. Finished walks are kept and not walked again.",
+    )
+    parser.add_argument("--runs", type=int, default=15, help="adaptive walks, and as many fixed ones (default 15)")
+    parser.add_argument("--seed", type=int, default=1, help="of the first walk (default 1)")
+    parser.add_argument("--world-seed", type=int, default=1, help="of the course's blocks (default 1)")
+    parser.add_argument(
+        "--distance", type=float, default=WHOLE_COURSE, help=f"m along the course (default {WHOLE_COURSE})"
+    )
+    parser.add_argument("--out", default="testbed_study", help="folder of records and report (default testbed_study)")
+    parser.add_argument("--jobs", type=int, default=1, help="walks at a time on this computer, a core each (default 1)")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="a Dask scheduler, tcp://host:port, instead of --jobs")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    return parser
