@@ -12,17 +12,15 @@ from typing import Any
 
 from tqdm import tqdm
 
-from robot_agent.adaptation import safe_gait
 from robot_agent.loops import CONTROL_RATE
 from robot_agent.mapping.files import MapSnapshot, load_map, save_map
 from sim_agent.lock_step import LockStep
+from sim_agent.mission import begin_mission
 from sim_agent.run_log import RunLog
 from sim_agent.worlds import make_world
 from weaver_shared.errors import InputError
-from weaver_shared.messages import Answer, CommandName, Waypoint
+from weaver_shared.messages import Waypoint
 from weaver_shared.robots import load_robot
-
-STAND_SECONDS = 30.0
 
 
 def main(arguments: list[str]) -> int:
@@ -58,18 +56,7 @@ def walk(options: argparse.Namespace, *, tell_truth: bool = True) -> dict[str, A
 
 
 def _mission(run: LockStep, log: RunLog, goal: Waypoint, options: argparse.Namespace) -> bool:
-    run.step()
-    _must(run.operator.send(CommandName.TAKE_CONTROL))
-    _must(run.operator.send(CommandName.STAND))
-    if options.adapt == "off":
-        _fix_parameters(run)
-    _must(run.operator.send(CommandName.SET_GAIT, name=options.gait))
-    how = "auto" if options.navigate == "auto" else ""
-    _must(run.operator.send(CommandName.SET_MISSION, name=how, waypoints=(goal,)))
-    for _ in range(round(STAND_SECONDS * CONTROL_RATE)):
-        if run.step().walk.walk.posture == "standing":
-            break
-    _must(run.operator.send(CommandName.START_MISSION))
+    begin_mission(run, (goal,), adaptive=options.adapt == "on", gait=options.gait, find_way=options.navigate == "auto")
     with tqdm(total=0, unit=" s", disable=not sys.stderr.isatty(), bar_format="{desc}") as bar:
         for tick in range(round(options.timeout * CONTROL_RATE)):
             moment = run.step()
@@ -100,17 +87,6 @@ def _save(run: LockStep, path: Path) -> None:
     terrain_map = run.map()
     if terrain_map is not None:
         save_map(path, terrain_map.snapshot())
-
-
-def _fix_parameters(run: LockStep) -> None:
-    """The paper's non-adaptive set: constant, tuned to the roughest part."""
-    for name, value in safe_gait(run.robot.adaptation).items():
-        _must(run.operator.send(CommandName.SET_OVERRIDE, name=name, value=value))
-
-
-def _must(answer: Answer) -> None:
-    if not answer.accepted:
-        raise InputError(f"the robot refused: {answer.reason}")
 
 
 def _goal(text: str) -> Waypoint:

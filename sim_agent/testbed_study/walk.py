@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.adaptation import safe_gait
 from robot_agent.evaluation.trajectory import Trajectory, evaluate
 from robot_agent.loops import CONTROL_RATE
 from sim_agent.lock_step import LockStep, Moment
+from sim_agent.mission import begin_mission
 from sim_agent.testbed_study.plan import PlannedWalk
 from sim_agent.worlds import World
 from weaver_shared.errors import InputError, WeaverError
-from weaver_shared.messages import Answer, CommandName, Waypoint
+from weaver_shared.messages import Waypoint
 from weaver_shared.robots import load_robot
 from weaver_shared.transforms import Pose, rotation_from_wxyz, rotation_z, rpy_from_rotation
 
@@ -38,7 +38,6 @@ COLUMNS = (
     "estimated_z",
 )
 EVERY = 5  # ticks a row: 20 Hz, the rate of the paper's power recordings
-STAND_SECONDS = 30.0
 SLOWEST = 0.015  # m/s; a robot that makes less way is stuck
 BEYOND_FALL = np.deg2rad(60.0)
 
@@ -76,17 +75,7 @@ def walk_testbed(plan: PlannedWalk) -> WalkRecord:
 
 
 def _mission(run: LockStep, plan: PlannedWalk, world: World, recorder: _Recorder) -> str:
-    run.step()
-    _must(run.operator.send(CommandName.TAKE_CONTROL))
-    _must(run.operator.send(CommandName.STAND))
-    if plan.kind == "fixed":
-        for name, value in safe_gait(run.robot.adaptation).items():
-            _must(run.operator.send(CommandName.SET_OVERRIDE, name=name, value=value))
-    _must(run.operator.send(CommandName.SET_MISSION, waypoints=_waypoints(plan, world)))
-    for _ in range(round(STAND_SECONDS * CONTROL_RATE)):
-        if run.step().walk.walk.posture == "standing":
-            break
-    _must(run.operator.send(CommandName.START_MISSION))
+    begin_mission(run, _waypoints(plan, world), adaptive=plan.kind == "adaptive")
     for tick in range(round(plan.distance / SLOWEST * CONTROL_RATE)):
         moment = run.step()
         recorder.add(moment, tick)
@@ -165,11 +154,6 @@ class _Recorder:
             return evaluate(Trajectory.of(*self._estimated), Trajectory.of(*self._true)).drift_percent
         except InputError:
             return float("nan")
-
-
-def _must(answer: Answer) -> None:
-    if not answer.accepted:
-        raise InputError(f"the robot refused: {answer.reason}")
 
 
 def outcome_of(record: WalkRecord) -> dict[str, Any]:
