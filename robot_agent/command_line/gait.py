@@ -78,7 +78,14 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--height", type=float, default=0.05, help="how high a foot swings, m")
     parser.add_argument("--dt", type=float, default=0.01, help="length of a tick, s")
     gait_of_openshc.add_options(parser, COMPATIBLE)
-    parser.add_argument("--csv", default="-", metavar="FILE", help="where to write; - is the standard output")
+    parser.add_argument(
+        "--csv",
+        nargs="?",
+        const="-",
+        default="-",
+        metavar="FILE",
+        help="where to write; the standard output unless told",
+    )
     return parser
 
 

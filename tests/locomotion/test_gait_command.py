@@ -26,6 +26,10 @@ def test_the_table_has_a_row_per_tick_and_leg_and_idles_first(capsys):
         assert name in rows[0]
 
 
+def test_csv_without_a_file_is_the_standard_output(capsys):
+    assert table(capsys, "--ticks", "3", "--csv") == table(capsys, "--ticks", "3")
+
+
 def test_its_swing_apex_and_its_stance_speed_are_exact(capsys):
     rows = table(capsys, "--velocity", "0.1,0,0", "--ticks", "300", "--frequency", "0.8", "--height", "0.06")
     leg = [row for row in rows if row["leg"] == "BL" and int(row["tick"]) > 200]
