@@ -14,15 +14,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.ideal_walk import IdealWalk
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
+from robot_agent.locomotion.yardstick import yardstick
 from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.robots import load_robot
 
 WARM_UP_TICKS = 300
 YARDSTICK_EVERY = 10
 """Ticks."""
+YARDSTICK_TURNS = 1000
 STRIDE = 0.25
 """Of the robot's largest speed, walked forwards; a fifth of that sideways."""
 FULL = PosingOrder(manual=(0.005, 0.0, 0.005, 0.01, 0.01, 0.0), automatic=True, levelling=True)
@@ -82,7 +83,6 @@ def measure(five_joints: str, ticks: int) -> dict[str, dict[str, float]]:
 def _figures(tick: Callable[[], object], ticks: int) -> dict[str, float]:
     for _ in range(WARM_UP_TICKS):
         tick()
-    yardstick(1)
     times, fixed = np.empty(ticks), []
     for index in range(ticks):
         times[index] = _time(tick)
@@ -106,14 +106,4 @@ def _time(work: Callable[[], object]) -> float:
 
 
 def _yardstick() -> None:
-    yardstick(1000)
-
-
-@kernel
-def yardstick(turns: int) -> float:
-    """Arithmetic of the kind that legs need, each turn depending on the last: about 20 us per 1000 on a 3 GHz core."""
-    x, y = 0.6, 0.8
-    for _ in range(turns):
-        angle = np.arctan2(y, x) + 0.1
-        x, y = np.cos(angle), np.sin(angle)
-    return x
+    yardstick(YARDSTICK_TURNS)

@@ -4,6 +4,8 @@ import numpy as np
 
 from robot_agent.kinematics import limit_joint_speed, solve_leg
 from robot_agent.kinematics.compiled import kernel
+from robot_agent.kinematics.inverse import ITERATIVE, TOLERANCE
+from robot_agent.kinematics.within_speed import is_too_fast, solve_within_speed
 from robot_agent.locomotion.body_velocity import clean_velocity
 from robot_agent.locomotion.energy_margin import energy_margin
 from robot_agent.locomotion.feet import REACH, STAND, SWING
@@ -143,9 +145,11 @@ def place_feet(walk: Record) -> None:
 
 @kernel
 def reach_feet(walk: Record) -> None:
-    """Joint angles for the wanted feet, last links along gravity as far as the legs can."""
+    """Joint angles for the wanted feet, last links along gravity as far as the legs can without turning too fast."""
     model, joint = walk.model, walk.joint
     n, direction = model.joints, np.empty(3)
+    has_choice = n > 3 and model.closed_form == ITERATIVE
+    largest_step = model.speed_limit[:n] * model.dt
     for k in range(3):
         direction[k] = -walk.senses.up[k]
     for leg in range(model.legs):
@@ -160,6 +164,19 @@ def reach_feet(walk: Record) -> None:
             joint.previous[leg, :n],
             joint.wanted[leg, :n],
         )
+        if has_choice and is_too_fast(joint.previous[leg, :n], joint.wanted[leg, :n], largest_step):
+            solve_within_speed(
+                model.dh[:n],
+                model.limits[:n],
+                model.hips[leg],
+                model.hip_axes[leg],
+                joint.foot[leg],
+                direction,
+                TOLERANCE,
+                largest_step,
+                joint.previous[leg, :n],
+                joint.wanted[leg, :n],
+            )
 
 
 @kernel

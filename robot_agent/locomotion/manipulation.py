@@ -33,6 +33,8 @@ class Manipulation:
         self._mode = state.cut("feet", "mode")
         self._feet = state.cut("senses", "origins")[:, -1]
         self._centre, self._up = state.cut("senses", "centre_of_mass"), state.cut("senses", "up")
+        self._told = state.cut("answer", "joint_position")  # of the last tick
+        self._target_step = state.cut("model", "target_step")
         self._unposed_up = state.cut("senses", "unposed_up")
         self._legs: dict[int, HeldLeg] = {}
         self._all_supporting = ("supporting",) * len(names)
@@ -85,10 +87,15 @@ class Manipulation:
         return True
 
     def turn_joints(self, wanted: Array, target: Array) -> None:
-        """After the feet are followed: overwrite angles (legs, n) of legs whose joints are turned directly."""
+        """After the feet are followed: overwrite angles (legs, n) of legs whose joints are turned directly.
+
+        Servos that were led have to come back to those angles no faster than they can.
+        """
         for leg, held in self._legs.items():
             if held.angles is not None:
-                wanted[leg] = target[leg] = held.angles
+                wanted[leg] = held.angles
+                last, step = self._told.reshape(wanted.shape)[leg], self._target_step
+                target[leg] = np.clip(held.angles, last - step, last + step)
 
 
 def refusal(margin: float, needed: float) -> str:

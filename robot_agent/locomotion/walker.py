@@ -103,7 +103,7 @@ class Walker:
         believe(self._memory)
         stand(self._memory, stance, 1.0)
         self._posture, self._unhindered = "standing", False
-        return self._angles.ravel()
+        return self._angles.flatten()
 
     def carrying_torque(self) -> Array:
         """Joint torques (joints,) N m with which the legs, as last measured, carry just what they are expected to."""

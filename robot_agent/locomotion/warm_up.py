@@ -10,6 +10,7 @@ from robot_agent.locomotion.leg_order import LegOrder
 from robot_agent.locomotion.posing.order import PosingOrder
 from robot_agent.locomotion.walk_tick import WalkInput
 from robot_agent.locomotion.walker import Walker
+from robot_agent.locomotion.yardstick import yardstick
 from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.messages import GaitParameters
 from weaver_shared.robots import RobotDescription, load_robot
@@ -21,6 +22,7 @@ WARMING_VELOCITY = np.array([0.1, 0.02, 0.05])
 def warm_up(robot: RobotDescription | None = None) -> None:
     """Walk a robot (Weaver unless told otherwise) for a stride with and without ground contact, and OpenSHC's legs."""
     openshc.warm_up()
+    yardstick(1)
     robot = robot or load_robot()
     for feel_ground in (True, False):
         tick = IdealWalk(robot, LocomotionConfig(feel_ground=feel_ground), velocity=WARMING_VELOCITY).replay(120)

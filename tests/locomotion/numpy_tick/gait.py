@@ -1,0 +1,96 @@
+"""The gait's clock, its start and stop, and who lifts."""
+
+import numpy as np
+
+from numpy_tick.orders import approach
+from numpy_tick.stride import stride_of
+from robot_agent.locomotion import reasons
+from robot_agent.locomotion.gait_clock import GLIDE
+from robot_agent.locomotion.stepper import BRAKING_STRIDE, PACE_TIME, STOP_SLEW
+
+STAND, SWING, REACH, HANG = range(4)
+
+
+def start_or_stop(walk):
+    gait, mode = walk.gait, walk.feet.mode
+    moving = walk.orders.velocity.any()
+    if moving and not gait.walking:
+        begin(walk)
+    elif gait.walking:
+        gait.halted = not moving or gait.skipped
+        if gait.halted and not np.isin(mode, (SWING, REACH)).any() and not gait.commanded.any():
+            gait.walking = gait.skipped = False
+    if gait.walking and gait.halted and gait.skipped:
+        approach(walk, np.zeros(3), STOP_SLEW)
+
+
+def begin(walk):
+    gait, orders = walk.gait, walk.orders
+    candidates = (1.0 - orders.offset) % 1.0
+    costs = [cost_of_start(walk, phase) for phase in candidates]
+    best = 0
+    for candidate, cost in enumerate(costs):
+        if cost < costs[best] - 1e-12:
+            best = candidate
+    gait.phase, gait.duty, gait.offset = candidates[best] % 1.0, orders.duty, orders.offset
+    gait.leg_phase = (gait.phase + gait.offset) % 1.0
+    at_lift_off = (gait.leg_phase < 1e-9) | (gait.leg_phase > 1.0 - 1e-9)
+    walk.feet.lifted = (gait.leg_phase < 1.0 - gait.duty) & ~at_lift_off
+    gait.walking, gait.skipped, gait.halted, gait.pace, gait.waited = True, False, False, 1.0, 0.0
+
+
+def cost_of_start(walk, phase):
+    """Square of how far, m, the worst foot strays from its stance before its first swing."""
+    worst = 0.0
+    for leg, stance in enumerate(walk.feet.stance):
+        own = (phase + walk.orders.offset[leg]) % 1.0
+        left = 0.0 if min(own, 1.0 - own) < 1e-9 else 1.0 - own
+        stride = stride_of(walk.orders.velocity, stance, walk.orders.duty, walk.gait.frequency)
+        away = (walk.feet.place[leg] - stance - stride * left / walk.orders.duty)[:2]
+        worst = max(worst, away @ away)
+    return worst
+
+
+def advance(walk):
+    gait, feet, dt = walk.gait, walk.feet, walk.model.dt
+    on_ground = np.isin(feet.mode, (STAND, HANG))
+    due = (on_ground & (feet.lifted == 0)) | (gait.leg_phase >= 1.0 - gait.duty)
+    until_lift = min([1.0, *(1.0 - gait.leg_phase[due])])
+    reaching = (feet.mode == REACH).any()
+    target = np.clip(until_lift / BRAKING_STRIDE, 0.0, 1.0) if reaching else 1.0
+    gait.pace += np.clip(target - gait.pace, -dt / PACE_TIME, dt / PACE_TIME)
+    strides = gait.frequency * dt * gait.pace
+    if reaching and strides >= until_lift - 1e-4:
+        strides, gait.waited = 0.0, gait.waited + dt
+        walk.answer.reasons |= reasons.NO_GROUND
+        if gait.waited > walk.settings.foothold.waiting_time:
+            feet.mode = np.where(feet.mode == REACH, HANG, feet.mode)
+    else:
+        gait.waited = 0.0
+    run_clock(walk, strides)
+    lift_feet(walk)
+
+
+def run_clock(walk, strides):
+    gait, orders, step = walk.gait, walk.orders, GLIDE * strides
+    gait.phase = (gait.phase + strides) % 1.0
+    gap = (orders.offset - gait.offset + 0.5) % 1.0 - 0.5
+    gait.offset = (gait.offset + np.clip(gap, -step, step)) % 1.0
+    gait.leg_phase = (gait.phase + gait.offset) % 1.0
+    gait.duty += np.clip(orders.duty - gait.duty, -step, step)
+
+
+def lift_feet(walk):
+    gait, feet, load = walk.gait, walk.feet, walk.load
+    for leg in range(walk.model.legs):
+        if gait.leg_phase[leg] >= 1.0 - gait.duty:
+            feet.lifted[leg] = False
+        elif not feet.lifted[leg] and feet.mode[leg] in (STAND, HANG):
+            if gait.halted:
+                gait.skipped = True
+                continue
+            feet.place[leg] += load.offset[leg, 0] * walk.senses.unposed_up
+            feet.lift_off[leg] = feet.place[leg]
+            load.offset[leg] = 0.0
+            feet.mode[leg], feet.lifted[leg] = SWING, True
+            feet.swing_height[leg], feet.reached[leg] = gait.height, 0.0
