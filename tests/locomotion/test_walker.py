@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from robot_agent.kinematics import LegModel
 from robot_agent.locomotion import Walker, WalkInput
+from robot_agent.locomotion.soak.robots import random_robot
 from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.messages import GaitParameters
 from weaver_shared.robots import load_robot
@@ -182,6 +183,29 @@ def test_the_same_inputs_give_the_same_outputs():
     first, second = Ideal(), Ideal()
     for a, b in zip(first.run(2.0, (0.2, 0.05, 0.1)), second.run(2.0, (0.2, 0.05, 0.1)), strict=True):
         np.testing.assert_array_equal(a.joint_position, b.joint_position)
+
+
+def test_an_answer_never_changes_after_it_was_given():
+    ideal = Ideal()
+    out = ideal.run(1.0, (0.2, 0.0, 0.0))[-1]
+    names = ("joint_position", "foot_in_body", "foot_force", "phase", "swing", "velocity", "ground_plane", "slipping")
+    before = {name: getattr(out, name).copy() for name in names}
+    ideal.run(0.5, (0.0, 0.1, 0.2))
+    for name, values in before.items():
+        np.testing.assert_array_equal(getattr(out, name), values)
+        with pytest.raises(ValueError, match="read-only"):
+            getattr(out, name)[0] = 0
+
+
+def test_the_angles_to_begin_standing_with_are_no_view_of_the_walker():
+    """With as many joints as the memory has room for, the walker's own array is in one piece."""
+    robots = (random_robot(np.random.default_rng(seed), seed) for seed in range(50))
+    robot = next(robot for robot in robots if robot.joints_per_leg == 6)
+    walker = Walker(robot, KINEMATIC, DT)
+    joints = walker.begin_standing()
+    before = joints.copy()
+    walker.reset(joints + 0.1)
+    np.testing.assert_array_equal(joints, before)
 
 
 def test_a_velocity_that_is_no_number_stops_and_is_said():
