@@ -46,6 +46,7 @@ class Situation:
     settled: bool  # seated or without torque
     stand_blockers: tuple[str, ...]  # what keeps the robot from standing up
     lift_margins: tuple[float, ...] = ()  # m of stability without each leg, while the robot stands still
+    change_refusal: str = "starting"  # why the posture of the legs can not be changed now
 
 
 class CommandDesk:
@@ -93,6 +94,7 @@ class CommandDesk:
             CommandName.START_CRUISE: self._moving(self._start_cruise),
             CommandName.STOP_CRUISE: self._stop_cruise,
             CommandName.SET_START_UP: self._moving(self._motion.set_start_up),
+            CommandName.CHANGE_POSTURE: self._moving(self._change_posture),
             CommandName.SET_POSE: self._moving(self._motion.set_pose),
             CommandName.CLEAR_POSE: self._moving(self._motion.clear_pose),
             CommandName.LIFT_LEG: self._moving(self._legs.lift),
@@ -163,6 +165,7 @@ class CommandDesk:
                 legs=self._legs.orders,
                 in_sequence=self._motion.in_sequence,
                 pack=self._motion.pack,
+                posture=self._motion.posture,
                 find_way=self._mission.find_way,
             )
 
@@ -229,6 +232,8 @@ class CommandDesk:
                 names.add(CommandName.SIT)
             if self._situation.lift_margins:
                 names.add(CommandName.LIFT_LEG)
+            if self._robot.posture is not None and mode == "STAND" and not self._situation.change_refusal:
+                names.add(CommandName.CHANGE_POSTURE)
             if self._legs.orders:
                 names |= {CommandName.LOWER_LEG, CommandName.MOVE_TIP, CommandName.MOVE_JOINT}
             if self._mission.phase in ("ready", "paused") and mode in ("STAND", "WALK"):
@@ -357,6 +362,11 @@ class CommandDesk:
         if self._legs.orders:
             raise InputError("legs are lifted; lower them before walking")
         return self._cruise.start(command, self._teleop_velocity(self._now_ns()), self._situation.stamp_ns)
+
+    def _change_posture(self, command: Command) -> float:
+        if self._situation.mode != "STAND":
+            raise InputError(f"the posture is changed only while the robot stands; it is in {self._situation.mode}")
+        return self._motion.change_posture(command, self._situation.change_refusal)
 
     def _stop_cruise(self, _: Command) -> Answer:
         self._cruise.stop()

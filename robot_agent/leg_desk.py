@@ -72,7 +72,7 @@ class LegDesk:
             raise InputError(f"joint {command.name!r:.40} is unknown; known are {', '.join(self._robot.joint_names)}")
         leg, joint = divmod(self._robot.joint_names.index(command.name), self._robot.joints_per_leg)
         self._held(self._robot.leg_names[leg])
-        lower, upper = self._robot.joint_limits[joint]
+        lower, upper = self._robot.walking_limits[joint]
         applied = float(min(max(_number(command), lower), upper))
         angles = list(self._orders[leg].joints or [float("nan")] * self._robot.joints_per_leg)  # NaN: as it is
         angles[joint] = applied

@@ -126,6 +126,7 @@ class WalkLoop:
                 settled=tick.permission.settled,
                 stand_blockers=tick.verdict.reasons if tick.permission.mode in ("OFF", "READY", "FAULT") else (),
                 lift_margins=tick.walk.lift_margins,
+                change_refusal=tick.walk.change_refusal,
             )
         )
         for text in tick.walk.events:

@@ -7,10 +7,12 @@ from dataclasses import replace
 from math import isfinite
 
 from robot_agent.locomotion.posing.order import AXES, NO_POSING, PosingOrder, bounded
+from robot_agent.locomotion.posture_order import NO_POSTURE_ORDER, PostureOrder
 from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.errors import InputError
 from weaver_shared.messages import Command
 from weaver_shared.robots import RobotDescription
+from weaver_shared.robots.counterpart import counterpart_of
 
 START_UPS = ("direct", "sequence")
 SWITCHES = ("automatic", "levelling")
@@ -22,9 +24,12 @@ class MotionDesk:
     def __init__(self, robot: RobotDescription, config: LocomotionConfig | None = None) -> None:
         self._robot = robot
         self._config = config or robot.locomotion
+        other = counterpart_of(robot)
+        self._postures = [one.posture.name for one in (robot, other) if one is not None and one.posture is not None]
         self.posing: PosingOrder = NO_POSING
         self.in_sequence = False
         self.pack = False
+        self.posture: PostureOrder = NO_POSTURE_ORDER
 
     def set_pose(self, command: Command) -> float:
         """One axis of the body's pose: x, y, z in m, roll, pitch, yaw in rad; clamped to what may be asked."""
@@ -72,6 +77,17 @@ class MotionDesk:
         if command.name and self._robot.packed_joints is None:
             raise InputError(f"robot {self._robot.name} can not be packed: its description has no packed joint angles")
         self.pack = command.name == "pack"
+        return 0.0
+
+    def change_posture(self, command: Command, refusal: str) -> float:
+        """Move the legs into another posture; `refusal` says why they can not now, empty when they can."""
+        if not self._postures:
+            raise InputError(f"robot {self._robot.name} has one posture only")
+        if command.name not in self._postures:
+            raise InputError(f"posture {command.name!r:.40} is unknown; known are {', '.join(self._postures)}")
+        if refusal:
+            raise InputError(refusal)
+        self.posture = PostureOrder(name=command.name, serial=self.posture.serial + 1)
         return 0.0
 
     def _take(self, manual: Iterable[float]) -> None:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from robot_agent.locomotion.leg_order import LegOrder
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
+from robot_agent.locomotion.posture_order import NO_POSTURE_ORDER, PostureOrder
 from weaver_shared.messages import Waypoint
 
 
@@ -27,6 +28,7 @@ class Orders:
     legs: tuple[LegOrder, ...] = ()  # in the operator's hands
     in_sequence: bool = False  # stand up and sit down with legs in alternating groups
     pack: bool = False  # fold the legs away when sitting
+    posture: PostureOrder = NO_POSTURE_ORDER  # of the legs
     find_way: bool = False  # the waypoints are goals to which the robot finds its own way
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from robot_agent.adaptation import AdaptationController, ParameterOverrides
 from robot_agent.body import JointTargets
 from robot_agent.limits import JointGate
-from robot_agent.locomotion import Walker, WalkInput, WalkOutput
+from robot_agent.locomotion import Postures, WalkInput, WalkOutput
 from robot_agent.mapping import FirmFeet, TerrainMap
 from robot_agent.modes import ModeMachine, Permission
 from robot_agent.navigation import FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
@@ -154,7 +154,7 @@ class WalkPipeline:
         self._follower = PathFollower()
         self._route_follower = RouteFollower()
         self._route: RoutePlan | None = None
-        self._walker = Walker(robot, dt=dt)
+        self._walker = Postures(robot, dt=dt)
         self._safety = SafetySupervisor()
         self._vigilance = Vigilance()
         self._modes = ModeMachine()
@@ -211,6 +211,7 @@ class WalkPipeline:
                 legs=orders.legs,
                 in_sequence=orders.in_sequence,
                 pack=orders.pack,
+                posture_order=orders.posture,
             )
         )
         self._posture = walk.posture

@@ -206,6 +206,7 @@ def _locomotion_state(tick: WalkTick) -> LocomotionState:
         slipping=walk.slipping,
         leg_stages=walk.leg_stages,
         lift_margins=np.array(walk.lift_margins),
+        leg_posture=walk.leg_posture,
     )
 
 

@@ -62,7 +62,7 @@ class LegModel:
         damping = [s.torque_constant**2 / s.resistance + s.viscous_friction for s in servos]
         return LegModel(
             dh=with_turns(robot.dh),
-            limits=robot.joint_limits,
+            limits=robot.walking_limits,
             hips=robot.hips_in_body,
             hip_axes=robot.hip_axes,
             link_mass=np.array([joint.mass for joint in robot.joints]),

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from robot_agent.locomotion.leg_order import LegOrder
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
+from robot_agent.locomotion.posture_order import NO_POSTURE_ORDER, PostureOrder
 from robot_agent.locomotion.reasons import sentences
 from robot_agent.locomotion.walk_state import ANSWER
 from weaver_shared.messages import GaitParameters
@@ -39,6 +40,7 @@ class WalkInput(NamedTuple):
     legs: tuple[LegOrder, ...] = ()  # to be held off the ground
     in_sequence: bool = False  # stand up and sit down with legs in alternating groups; False: all at once
     pack: bool = False  # fold the legs away when sitting
+    posture_order: PostureOrder = NO_POSTURE_ORDER  # of the legs
 
 
 class WalkOutput(NamedTuple):
@@ -47,11 +49,13 @@ class WalkOutput(NamedTuple):
     answer: bytes
     leg_count: int
     joint_count: int
-    posture: str  # sitting, rising, standing, walking, lowering
+    posture: str  # sitting, rising, standing, walking, lowering, changing (the posture of the legs)
     stability: str  # what the margins allow: good, warn, slow, refuse
     leg_stages: tuple[str, ...]  # supporting, lifting, held or lowering
     events: tuple[str, ...]  # slips and stumbles of this tick
     further_reasons: tuple[str, ...]
+    leg_posture: str = ""  # that the legs are in, or leave; empty for a robot with one only
+    change_refusal: str = ""  # why the legs can not go into another posture now; empty when they can
 
     @property
     def joint_position(self) -> Array:

@@ -20,6 +20,8 @@ from robot_agent.locomotion.legs_tick import (
 from robot_agent.locomotion.manipulation import Manipulation
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from robot_agent.locomotion.posing.poser import Poser
+from robot_agent.locomotion.posture_change import LOADING, PostureChange
+from robot_agent.locomotion.posture_plan import PosturePlan
 from robot_agent.locomotion.rising import Glide
 from robot_agent.locomotion.stability_watch import StabilityWatch, is_static
 from robot_agent.locomotion.stepper import stand
@@ -37,8 +39,8 @@ MARCH = 2e-4
 """m/s: to step in place is to walk at hardly any speed."""
 LONGEST_MARCH = 4.0
 """Strides."""
-LOADING = 0.15
-"""Fraction of the way up, and of the way down, in which the feet take over the weight from the belly."""
+LEVEL = 0.1
+"""Slope of the ground, and roughness over the leg's length, on which legs are turned into another posture."""
 
 
 class Walker:
@@ -73,6 +75,8 @@ class Walker:
         self._stability = StabilityWatch(config.stability, dt)
         self._posture = "sitting"
         self._folding: Folding | None = None
+        self._change: PostureChange | None = None
+        self._carries = False  # the feet carry the whole weight while they glide
         self._packed = robot.packed_joints
         self._marched = 0.0  # strides stepped in place since the last order to stand or sit
         self._foot_glide: Glide | None = None
@@ -86,10 +90,12 @@ class Walker:
         read = np.asarray(joint_position, dtype=np.float64).ravel()
         angles = np.where(np.isfinite(read), read, kept) if read.size == kept.size else kept
         angles = angles.reshape(self._angles.shape)
-        np.clip(angles, self._model.limits[:, 0], self._model.limits[:, 1], out=self._angles)
+        lower, upper = self._robot.joint_limits.T  # in whichever posture the legs are
+        np.clip(angles, lower, upper, out=self._angles)
         self._target[:] = self._angles.ravel()
         self._posture, self._unhindered = "sitting", False
         self._folding = self._foot_glide = None
+        self._end_change()
         self._poser.clear()
         self._manipulation.clear()
         self._in_air[:], self._walked[:] = False, 0.0
@@ -112,6 +118,48 @@ class Walker:
         torque: Array = senses["own_torque"][: self._load.size] - lever * self._load[:, None]
         return torque[:, :joints].ravel()
 
+    @property
+    def change_refusal(self) -> str:
+        """Why the robot can not begin to change its posture now; empty when it can."""
+        if self._posture != "standing":
+            return "the posture is changed only while the robot stands still"
+        if not (self._poser.idle and self._manipulation.idle):
+            return "the posture is changed only while the body is not posed and no leg is lifted"
+        slope = float(np.hypot(*self._state.cut("body", "plane")[:2]))
+        residual = float(self._state.record["answer"]["residual"])
+        if slope > LEVEL or residual > LEVEL * self._model.reach:
+            return f"the ground is not level enough: slope {slope:.2f}, {100 * residual:.1f} cm rough"
+        return ""
+
+    def begin_change(self, there: LegModel, plan: PosturePlan) -> None:
+        """Leave this posture for that of `there`; joints may turn as far as they can until the change is over."""
+        self._state.cut("model", "limits")[:] = self._robot.joint_limits
+        self._change = PostureChange(self._state, self._model, there, plan, self._config, self._dt)
+        self._posture, self._unhindered = self._change.posture, False
+
+    @property
+    def changed(self) -> bool:
+        """Whether a change of posture has come to its end, so that the other posture's walker takes over."""
+        return self._change is not None and self._change.done
+
+    def take_over(self, before: Walker) -> None:
+        """Go on for the walker that has changed into this posture: rise to its own height on the feet as they stand."""
+        self.reset(before._angles.ravel())
+        self._target[:] = before._target
+        believe(self._memory)
+        feet = self._measured_feet.copy()
+        stand(self._memory, feet, 1.0)
+        goal = feet.copy()
+        goal[:, 2] += float(self._robot.stance_in_body[0, 2] - feet[:, 2].mean())
+        self._feet[:] = feet
+        self._foot_glide, self._carries = Glide(feet, goal, self._config.rise_speed), True
+        self._posture = "rising"
+        before.reset(before._angles.ravel())
+
+    def _end_change(self) -> None:
+        self._change, self._carries = None, False
+        self._state.cut("model", "limits")[:] = self._model.limits
+
     def step(self, sensed: WalkInput) -> WalkOutput:
         """One control tick. Readings and orders that are not finite are replaced and named in `reasons`."""
         reasons = self._take(sensed)
@@ -124,7 +172,7 @@ class Walker:
                     reasons + self._poser.reasons, self._footing.step() if self._feels_ground else ()
                 )  # fmt: skip
         else:
-            sense_tick(self._memory, upright)
+            sense_tick(self._memory, upright or self._change is not None)
         reasons += self._judge_stability(upright)
         if not sensed.stand:
             self._velocity[:] = 0.0
@@ -136,7 +184,8 @@ class Walker:
             self._footing.clear()
         answer_tick(self._memory)
         self._unhindered = self._manipulation.idle and self._stability.idle and self._posture in UPRIGHT
-        return self._answer(reasons + self._poser.reasons + self._manipulation.reasons, events)
+        reasons += self._poser.reasons + self._manipulation.reasons
+        return self._answer(reasons + (self._change.reasons if self._change is not None else ()), events)
 
     def _whole_tick(self, posing: PosingOrder) -> int:
         """All of an unhindered robot's tick at once, if it is stable."""
@@ -197,7 +246,10 @@ class Walker:
 
     def _act(self, sensed: WalkInput) -> None:
         """Set this tick's servo targets according to the posture."""
-        if self._posture == "sitting":
+        if self._change is not None:
+            self._change.step(sensed.stand)
+            self._posture = self._change.posture
+        elif self._posture == "sitting":
             self._load[:] = 0.0
             joint_tick(self._memory, self._angles.copy(), False)
             if sensed.stand:
@@ -289,7 +341,8 @@ class Walker:
         glide = self._foot_glide
         assert glide is not None
         self._feet[:] = glide.step(self._dt)
-        carried = min((glide.progress if self._posture == "rising" else 1.0 - glide.progress) / LOADING, 1.0)
+        up = self._posture == "rising"
+        carried = 1.0 if up and self._carries else min((glide.progress if up else 1.0 - glide.progress) / LOADING, 1.0)
         self._load[:] = carried * float(self._state.record["model"]["weight"]) / self._load.size
         foot_tick(self._memory)
         if glide.done:
@@ -317,7 +370,7 @@ class Walker:
     def _arrive(self, sensed: WalkInput) -> None:
         if self._posture == "rising":
             stand(self._memory, self._feet.copy(), 1.0)
-            self._posture = "standing"
+            self._posture, self._carries = "standing", False
         elif sensed.pack and self._packed is not None:
             self._begin_packing(self._packed, sensed.in_sequence)
         else:

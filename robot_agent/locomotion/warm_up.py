@@ -8,6 +8,8 @@ from robot_agent.locomotion import openshc
 from robot_agent.locomotion.ideal_walk import IdealWalk
 from robot_agent.locomotion.leg_order import LegOrder
 from robot_agent.locomotion.posing.order import PosingOrder
+from robot_agent.locomotion.posture_order import PostureOrder
+from robot_agent.locomotion.postures import Postures
 from robot_agent.locomotion.walk_tick import WalkInput
 from robot_agent.locomotion.walker import Walker
 from robot_agent.locomotion.yardstick import yardstick
@@ -17,6 +19,7 @@ from weaver_shared.robots import RobotDescription, load_robot
 
 WARMING_VELOCITY = np.array([0.1, 0.02, 0.05])
 """m/s, rad/s."""
+TWO_POSTURES = "bullet_a_insectoid"
 
 
 def warm_up(robot: RobotDescription | None = None) -> None:
@@ -29,6 +32,7 @@ def warm_up(robot: RobotDescription | None = None) -> None:
         for _ in range(120):
             tick()
     pose_and_lift(robot)
+    change_posture(load_robot(TWO_POSTURES))
 
 
 def pose_and_lift(robot: RobotDescription) -> None:
@@ -57,3 +61,25 @@ def pose_and_lift(robot: RobotDescription) -> None:
                 in_sequence=True,
             )
             joints = walker.step(sensed).joint_position
+
+
+def change_posture(robot: RobotDescription) -> None:
+    """The first moments of a change of posture, in which feet glide and a leg is relieved."""
+    legs = Postures(robot, dt=0.01)
+    joints = legs.begin_standing()
+    for _ in range(3):
+        sensed = WalkInput(
+            stamp_ns=0,
+            velocity=np.zeros(3),
+            parameters=GaitParameters(
+                stamp_ns=0, virtual_stiffness=1000.0, stride_frequency=1.0, stride_height=0.05, confidence=1.0
+            ),
+            gait=robot.gaits[0],
+            stand=True,
+            joint_position=joints,
+            joint_torque=np.full(robot.joint_count, 0.1),
+            foot_contact=np.ones(robot.leg_count, dtype=np.bool_),
+            gravity_in_body=np.array([0.0, 0.0, -1.0]),
+            posture_order=PostureOrder(name="mammalian", serial=1),
+        )
+        joints = legs.step(sensed).joint_position

@@ -24,6 +24,7 @@ class CommandName(StrEnum):
     START_CRUISE = "start_cruise"  # name: forward, left (m/s), turn (rad/s), value; or stick: as it is now; seconds
     STOP_CRUISE = "stop_cruise"
     SET_START_UP = "set_start_up"  # name: direct, sequence; how to stand up and sit down
+    CHANGE_POSTURE = "change_posture"  # name of the posture the legs go into, one after the other, while it stands
     SET_POSE = "set_pose"  # name: x, y, z (m), roll, pitch, yaw (rad); value
     CLEAR_POSE = "clear_pose"  # name of one axis, or none for all
     LIFT_LEG = "lift_leg"  # name of a leg: take it off the ground, into the operator's hands

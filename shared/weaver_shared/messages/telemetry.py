@@ -111,7 +111,7 @@ class LocomotionState:
     """How safely the robot stands, and on what, 20 Hz."""
 
     stamp_ns: int
-    posture: str  # "sitting", "rising", "standing", "walking", "lowering"
+    posture: str  # "sitting", "rising", "standing", "walking", "lowering", "changing" (the posture of the legs)
     stability: str  # what the margins allow: "good", "warn", "slow" or "refuse"
     stability_margin: float  # m, static: of the mass to the edge of the support polygon; negative outside
     energy_margin: float  # m, height the mass must be lifted to tip over (normalised energy stability margin)
@@ -122,6 +122,7 @@ class LocomotionState:
     slipping: NDArray[np.bool_]  # (legs,) feet that slide against the others
     leg_stages: tuple[str, ...]  # of each leg: "supporting", or in hand "lifting", "held", "lowering"
     lift_margins: Array  # (legs,) m of static margin if that leg were lifted; empty while the robot does not stand
+    leg_posture: str  # that the legs are in, such as "insectoid"; empty for a robot with one posture only
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -13,7 +13,7 @@ from weaver_shared.config.adaptation import AdaptationConfig
 from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.errors import ConfigurationError
 from weaver_shared.robots.gaits import Gait, predefined_gaits
-from weaver_shared.robots.parts import Body, Camera, Imu, Joint, Leg, Part, Positive, Power, Servo
+from weaver_shared.robots.parts import Body, Camera, Imu, Joint, Leg, Part, Positive, Posture, Power, Servo
 from weaver_shared.transforms import rotation_x, rotation_z
 
 __all__ = ["CustomGait", "Imu", "Power", "RobotDescription"]
@@ -46,6 +46,7 @@ class RobotDescription(Part):
     sitting_gap: Annotated[float, Field(ge=0.0)] = 0.0
     gaits: Annotated[tuple[str, ...], Field(min_length=1)]
     custom_gaits: tuple[CustomGait, ...] = ()
+    posture: Posture | None = None
     body: Body
     servos: dict[str, Servo]
     joints: Annotated[tuple[Joint, ...], Field(min_length=3, max_length=6)]
@@ -143,9 +144,14 @@ class RobotDescription(Part):
         return np.array([[j.lower, j.upper] for j in self.joints])
 
     @cached_property
+    def walking_limits(self) -> NDArray[np.float64]:
+        """What of `joint_limits` the posture uses for walking, (joints_per_leg, 2) rad."""
+        return np.array([j.walking_limits for j in self.joints])
+
+    @cached_property
     def standing_search(self) -> NDArray[np.float64]:
         """Where the search for standing joint angles begins, (legs, joints) in rad."""
-        middle = self.joint_limits.mean(axis=1)
+        middle = self.walking_limits.mean(axis=1)
         return np.tile(
             [m if j.standing is None else j.standing for j, m in zip(self.joints, middle, strict=True)],
             (self.leg_count, 1),

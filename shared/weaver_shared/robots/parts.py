@@ -49,7 +49,8 @@ class Joint(Part):
 
     Legs with more joints than they need, or knees that bend either way, can reach a place in many postures:
     `standing` and `sitting` (rad) are where the search for a posture begins, the middle of the limits if not given;
-    `packed` (rad) is the angle in which the leg is folded away for carrying the robot about.
+    `packed` (rad) is the angle in which the leg is folded away for carrying the robot about. `walking` (rad) narrows
+    the limits for a robot that walks in one posture and can move itself into another.
     """
 
     name: str
@@ -64,17 +65,36 @@ class Joint(Part):
     standing: float | None = None
     sitting: float | None = None
     packed: float | None = None
+    walking: tuple[float, float] | None = None
+
+    @property
+    def walking_limits(self) -> tuple[float, float]:
+        """Between which angles the joint stays while the robot walks, rad."""
+        return (self.lower, self.upper) if self.walking is None else self.walking
 
     @model_validator(mode="after")
     def _ordered(self) -> Joint:
         if self.lower >= self.upper:
             raise ValueError(f"joint {self.name}: lower limit {self.lower} rad is not below upper {self.upper} rad")
+        least, most = self.walking_limits
+        if not self.lower <= least < most <= self.upper:
+            raise ValueError(
+                f"joint {self.name}: walking {least} to {most} rad is no range within its limits {self.lower} to "
+                f"{self.upper} rad"
+            )
         for key, angle in (("standing", self.standing), ("sitting", self.sitting), ("packed", self.packed)):
             if angle is not None and not self.lower <= angle <= self.upper:
                 raise ValueError(
                     f"joint {self.name}: {key} angle {angle} rad is outside its limits {self.lower} to {self.upper} rad"
                 )
         return self
+
+
+class Posture(Part):
+    """Which of its postures a robot is described in, and the description of the same robot in the other one."""
+
+    name: str
+    counterpart: str  # name or path of a description
 
 
 class Leg(Part):

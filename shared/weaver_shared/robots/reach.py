@@ -19,10 +19,10 @@ HOMING = 0.3
 def joints_reaching(robot: RobotDescription, feet: Array, begin: Array, *, steps: int = 150) -> tuple[Array, Array]:
     """Joint angles (legs, joints) that put foot centres at `feet` (legs, 3) in body, and distances left (legs,), m.
 
-    Damped least squares within the joint limits from `begin` (legs, joints), which also settles what a surplus of
+    Damped least squares within the limits for walking from `begin` (legs, joints), which also settles what a surplus of
     joints leaves open.
     """
-    lower, upper = robot.joint_limits.T
+    lower, upper = robot.walking_limits.T
     joints = np.clip(begin, lower, upper)
     best, left = joints.copy(), np.full(robot.leg_count, np.inf)
     size = leg_length(robot)
