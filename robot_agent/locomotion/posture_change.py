@@ -26,6 +26,10 @@ Array = NDArray[np.float64]
 LOADING = 0.15
 """Fraction of the way up, and of the way down, in which the feet take over the weight from the belly."""
 RELIEVED = 1e-6
+TURN_SPEED = 1.0
+"""rad/s, mean, of a leg in the air."""
+TILT_SPEED = 0.5
+"""1/s, of the last links' direction, while the feet stand."""
 
 
 class PostureChange:
@@ -55,6 +59,7 @@ class PostureChange:
         self._wanted = state.cut("joint", "wanted")
         self.angles: Array = self._wanted.copy()
         self._feet = state.cut("joint", "foot")  # m in body, wanted
+        self._links = np.tile(-self._up, (here.leg_count, 1))  # where the last links are wanted, as when walking
         self._changed = np.zeros(here.leg_count, dtype=np.bool_)
         self._relieved, self._in_air, self._carried = -1, False, 1.0
         self._stand = True
@@ -108,11 +113,12 @@ class PostureChange:
             yield
 
     def _move_body(self, height: float) -> Iterator[None]:
-        """Up or down, so that the feet are on the mean at `height` in body."""
+        """Up or down, so that the feet are on the mean at `height` in body, last links as when they are lifted."""
         goal = self._feet[:, 2] + height - float(self._feet[:, 2].mean())
         glide = Glide(self._feet[:, 2].copy(), goal, self._config.rise_speed)
-        while not glide.done:
-            self._feet[:, 2] = glide.step(self._dt)
+        tilting = Glide(self._links, self._plan.lifted_links, TILT_SPEED)
+        while not (glide.done and tilting.done):
+            self._feet[:, 2], self._links[:] = glide.step(self._dt), tilting.step(self._dt)
             self._reach_all()
             yield
 
@@ -149,11 +155,11 @@ class PostureChange:
     def _turn(self, leg: int) -> Iterator[None]:
         """Round in the air, first to where the plan has the leg over its stance."""
         for goal in (self._plan.lifted[leg], self._plan.turned[leg]):
-            glide = Glide(self.angles[leg].copy(), goal, self._config.soft_start_speed)
+            glide = Glide(self.angles[leg].copy(), goal, TURN_SPEED)
             while not glide.done:
                 self.angles[leg] = glide.step(self._dt)
                 yield
-        self._changed[leg] = True
+        self._changed[leg], self._links[leg] = True, self._plan.turned_links[leg]
         self._feet[leg] = (*self._plan.goal[leg], self._plan.height + self._plan.lift)
 
     def _put_down(self, leg: int) -> Iterator[None]:
@@ -169,7 +175,8 @@ class PostureChange:
 
     def _place(self, leg: int, foot: Array) -> None:
         self._feet[leg] = foot
-        reach_foot(self._memory, self._limits[int(self._changed[leg])], leg, self._feet[leg], self.angles[leg])
+        limits = self._limits[int(self._changed[leg])]
+        reach_foot(self._memory, limits, leg, self._feet[leg], self._links[leg], self.angles[leg])
 
     def _reach_all(self) -> None:
         for leg in range(len(self._feet)):

@@ -15,9 +15,9 @@ from weaver_shared.robots.reach import joints_reaching, leg_length
 
 Array = NDArray[np.float64]
 
-LIFTS = (0.10, 0.14, 0.18, 0.24, 0.30)
+LIFTS = (0.12, 0.18, 0.26)
 """Of the leg's length, that feet are lifted before they turn; the lowest with which all clear the ground is taken."""
-BODY_HEIGHTS = (0.0, 0.25, 0.5, 0.75, 1.0)
+BODY_HEIGHTS = (0.0, 0.5, 1.0)
 """From the lower to the higher posture's; the lowest in which all legs can turn is taken."""
 CLEARANCE = 0.06
 """Of the leg's length, between the ground and everything that turns in the air."""
@@ -37,6 +37,8 @@ class PosturePlan:
     goal: Array  # (legs, 2) m, where they are put down
     lifted: Array  # (legs, n) over the stance
     turned: Array  # (legs, n) over the goal
+    lifted_links: Array  # (legs, 3) directions in body of the last links, of the one
+    turned_links: Array  # (legs, 3) and of the other
     order: tuple[int, ...]  # of the legs
 
 
@@ -53,12 +55,14 @@ def plan_change(here: RobotDescription, there: RobotDescription) -> PosturePlan:
         if max(short, short_there) < REACHED * size and _lowest(here, lifted, turned) > height + CLEARANCE * size:
             return PosturePlan(
                 height=height,
-                sitting_height=max(float(robot.sitting_in_body[0, 2]) for robot in (here, there)),
+                sitting_height=min(float(robot.sitting_in_body[0, 2]) for robot in (here, there)),
                 lift=lift * size,
                 stance=here.stance_in_body[:, :2],
                 goal=there.stance_in_body[:, :2],
                 lifted=lifted,
                 turned=turned,
+                lifted_links=_last_links(here, lifted),
+                turned_links=_last_links(there, turned),
                 order=_order(here, there),
             )
     raise ConfigurationError(
@@ -69,12 +73,18 @@ def plan_change(here: RobotDescription, there: RobotDescription) -> PosturePlan:
 
 def _over(robot: RobotDescription, height: float) -> tuple[Array, float]:
     """Angles (legs, n) with the feet over their stance, and the distance (m) that is left."""
-    begin, _ = joints_reaching(robot, robot.stance_in_body, robot.standing_search)
     feet = robot.stance_in_body.copy()
-    for z in np.linspace(feet[0, 2], height, 12):  # along the way up, so that the knees stay on their side
-        feet[:, 2] = z
-        begin, left = joints_reaching(robot, feet, begin)
-    return begin, float(left.max())
+    feet[:, 2] = height
+    angles, left = joints_reaching(robot, feet, robot.sitting_search)
+    return angles, float(left.max())
+
+
+def _last_links(robot: RobotDescription, angles: Array) -> Array:
+    """Directions in body of every leg's last link, (legs, 3)."""
+    frames = joint_frames_in_body(robot, angles)
+    links = frames[:, -1, :3, 3] - frames[:, -2, :3, 3]
+    result: Array = links / np.linalg.norm(links, axis=1, keepdims=True)
+    return result
 
 
 def _lowest(robot: RobotDescription, start: Array, end: Array) -> float:

@@ -1,7 +1,5 @@
 """What a tick of changing the posture is made of: a foot's joint angles, and standing on all legs but one."""
 
-import numpy as np
-
 from robot_agent.kinematics import solve_leg
 from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.feet import HELD, STAND
@@ -9,20 +7,18 @@ from robot_agent.locomotion.legs_tick import follow_angles, hold_angles
 from robot_agent.locomotion.load import share_load
 from robot_agent.locomotion.walk_state import Array
 
-SHARE_TIME = 0.4
+SHARE_TIME = 0.25
 """s in which a leg gives off its load to the others, and takes it up again."""
 
 
 @kernel
-def reach_foot(memory: Array, limits: Array, leg: int, foot: Array, angles: Array) -> float:
+def reach_foot(memory: Array, limits: Array, leg: int, foot: Array, direction: Array, angles: Array) -> float:
     """Turn one leg's `angles` (n,) so that its foot is at `foot` (3,) in body; returns the distance left, m.
 
-    `limits` (n, 2) are those of the posture that the leg is in.
+    `limits` (n, 2) are those of the posture that the leg is in; its last link is wanted along `direction` (3,).
     """
     walk = memory[0]
-    n, direction, previous = walk.model.joints, np.empty(3), angles.copy()
-    for k in range(3):
-        direction[k] = -walk.senses.up[k]
+    n, previous = walk.model.joints, angles.copy()
     left: float = solve_leg(
         walk.model.dh[:n],
         limits,
