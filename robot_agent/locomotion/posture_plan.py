@@ -75,7 +75,7 @@ def _over(robot: RobotDescription, height: float) -> tuple[Array, float]:
     """Angles (legs, n) with the feet over their stance, and the distance (m) that is left."""
     feet = robot.stance_in_body.copy()
     feet[:, 2] = height
-    angles, left = joints_reaching(robot, feet, robot.sitting_search)
+    angles, left = joints_reaching(robot, feet, robot.sitting_search, steps=60)
     return angles, float(left.max())
 
 

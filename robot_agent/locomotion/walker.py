@@ -145,8 +145,8 @@ class Walker:
     def take_over(self, before: Walker) -> None:
         """Go on for the walker that has changed into this posture: rise to its own height on the feet as they stand."""
         self.reset(before._angles.ravel())
-        self._target[:] = before._target
         believe(self._memory)
+        self._target[:] = before._target
         feet = self._measured_feet.copy()
         stand(self._memory, feet, 1.0)
         goal = feet.copy()
