@@ -29,17 +29,18 @@ class SimulatedBody:
     """Servos, IMU and power of a robot in a world; a `robot_agent.body.Body`.
 
     The clock starts at 0 and moves by one control tick per `wait_next`. The robot begins sitting with torque off.
+    With `held_at` its trunk hangs on a stand, so many metres above the ground, and does not move.
     Everything random comes from `seed`; two bodies given the same orders read the same, bit for bit.
     """
 
     kind = "SIM"
 
-    def __init__(self, robot: RobotDescription, world: World, seed: int) -> None:
+    def __init__(self, robot: RobotDescription, world: World, seed: int, *, held_at: float | None = None) -> None:
         self.robot = robot
         self.world = world
         self._stamp_ns = 0
         start = sitting_joints(robot)
-        self._engine = Engine(robot, world, start)
+        self._engine = Engine(robot, world, start, held_at=held_at)
         self._servos = ServoBank(robot, 1.0 / RATE)
         self._battery = Battery(robot.power)
         self._contacts = ContactSensor(robot.leg_count, robot.mass * GRAVITY)

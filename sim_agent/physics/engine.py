@@ -57,16 +57,21 @@ _PARAMETERS: dict[str, float] = {
 
 
 class Engine:
-    """The rigid bodies. Joint order is `RobotDescription.joint_names`; base poses are of the body frame."""
+    """The rigid bodies. Joint order is `RobotDescription.joint_names`; base poses are of the body frame.
 
-    def __init__(self, robot: RobotDescription, world: World, joint_position: Array) -> None:
+    With `held_at` (m, of the body frame over the ground) the trunk is fixed there.
+    """
+
+    def __init__(
+        self, robot: RobotDescription, world: World, joint_position: Array, *, held_at: float | None = None
+    ) -> None:
         self._robot = robot
         self._client = pybullet.connect(pybullet.DIRECT)
         pybullet.setGravity(0.0, 0.0, -GRAVITY, physicsClientId=self._client)
         pybullet.setPhysicsEngineParameter(physicsClientId=self._client, **_PARAMETERS)
         with quiet():
             load_ground(world, self._client)
-            self._body = self._load_robot(world)
+            self._body = self._load_robot(world, held_at)
         self._joints = self._joint_indices()
         self._centre_in_body = np.asarray(robot.body.centre_of_mass_in_body)
         self._add_armature()
@@ -142,13 +147,13 @@ class Engine:
         if pybullet.isConnected(self._client):
             pybullet.disconnect(self._client)
 
-    def _load_robot(self, world: World) -> int:
+    def _load_robot(self, world: World, held_at: float | None) -> int:
         x, y, yaw = world.start
         rotation = rotation_z(yaw)
         box = np.asarray(self._robot.body.size)[:2] / 2
         corners = np.array([[sx, sy] for sx in (-1, 0, 1) for sy in (-1, 0, 1)]) * box @ rotation[:2, :2].T
         ground = float(world.elevation(x + corners[:, 0], y + corners[:, 1]).max())
-        height = ground + self._robot.sitting_gap - self._robot.belly + START_GAP
+        height = ground + (held_at or self._robot.sitting_gap - self._robot.belly + START_GAP)
         pose = Pose(rotation=rotation, position=np.array([x, y, height]))
         wxyz = pose.wxyz
         with tempfile.TemporaryDirectory() as folder:
@@ -160,7 +165,7 @@ class Engine:
                     str(path),
                     basePosition=pose.position.tolist(),
                     baseOrientation=[wxyz[1], wxyz[2], wxyz[3], wxyz[0]],
-                    useFixedBase=False,
+                    useFixedBase=held_at is not None,
                     flags=pybullet.URDF_USE_INERTIA_FROM_FILE,
                     physicsClientId=self._client,
                 )

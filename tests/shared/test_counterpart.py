@@ -4,8 +4,8 @@ import pytest
 
 from weaver_shared.errors import ConfigurationError
 from weaver_shared.robots import load_robot, robot_names
-from weaver_shared.robots.catalogue import robot_of
 from weaver_shared.robots.counterpart import counterpart_of
+from weaver_shared.robots.parts import Joint
 
 PAIRED = [name for name in robot_names() if load_robot(name).posture]
 
@@ -48,9 +48,6 @@ def test_two_machines_are_not_taken_for_one(key: str, update: dict[str, object])
 
 
 def test_a_walking_range_beyond_the_joints_limits_is_refused() -> None:
-    text = (
-        "[[joints]]\nname = 'yaw'\nservo = 's'\ntheta = 0.0\nd = 0.0\nr = 0.0\nalpha = 0.0\nmass = 0.1\n"
-        "lower = -1.0\nupper = 1.0\nwalking = [-0.5, 1.5]\n"
-    )
-    with pytest.raises(ConfigurationError, match=r"walking -0.5 to 1.5 rad is no range within its limits"):
-        robot_of(text, "own.toml")
+    yaw = load_robot("bullet_a_insectoid").joints[0].model_dump()
+    with pytest.raises(ValueError, match=r"walking -0.5 to 1.8 rad is no range within its limits -1.7 to 1.7 rad"):
+        Joint.model_validate(yaw | {"walking": (-0.5, 1.8)})
