@@ -28,10 +28,10 @@ class PointStore:
         return self._known.get(point.key)
 
     def save(self, measured: Measured) -> None:
-        """One whole line; an interruption leaves at most its beginning, which is not read."""
+        """One whole line, on a line of its own; an interruption leaves at most its beginning, which is not read."""
         self._known[measured.point.key] = measured
         with self._file.open("a", encoding="utf-8") as file:
-            file.write(json.dumps({"version": VERSION, **measured.as_dict()}) + "\n")
+            file.write("\n" + json.dumps({"version": VERSION, **measured.as_dict()}) + "\n")
 
     def _read(self) -> dict[str, Measured]:
         known: dict[str, Measured] = {}

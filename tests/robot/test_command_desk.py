@@ -222,3 +222,30 @@ def test_the_allowed_commands_are_the_ones_that_get_accepted(desk: CommandDesk, 
     assert "release_stop" not in desk.allowed()
     observe(desk, "READY")
     assert "release_stop" in desk.allowed()
+
+
+def test_the_posture_of_the_legs_is_changed_only_while_the_robot_stands(clock: SimulatedClock) -> None:
+    desk = CommandDesk(
+        robot=load_robot("bullet_a_insectoid"), overrides=ParameterOverrides(), wall_clock_ns=clock.now_ns
+    )
+    ada = Operator(desk, "ada")
+    ada.says(CommandName.TAKE_CONTROL)
+
+    def is_in(mode: str, refusal: str) -> None:
+        desk.observe(
+            Situation(
+                stamp_ns=0, robot_xy=(0.0, 0.0), mode=mode, settled=False, stand_blockers=(), change_refusal=refusal
+            )
+        )
+
+    is_in("WALK", "")
+    assert "it is in WALK" in ada.says(CommandName.CHANGE_POSTURE, name="mammalian").reason
+    assert CommandName.CHANGE_POSTURE not in desk.allowed()
+    is_in("STAND", "the ground is not level enough")
+    assert ada.says(CommandName.CHANGE_POSTURE, name="mammalian").reason == "the ground is not level enough"
+    assert desk.orders().posture.serial == 0
+    is_in("STAND", "")
+    assert CommandName.CHANGE_POSTURE in desk.allowed()
+    assert ada.says(CommandName.CHANGE_POSTURE, name="mammalian").accepted
+    assert desk.orders().posture.name == "mammalian"
+    assert desk.orders().posture.serial == 1
