@@ -97,7 +97,7 @@ def parts_table(measured: Sequence[Measured]) -> Table:
                 lost = found.power - found.idle - found.heat - found.work
                 rows.append(
                     (label(robot), gait, name, f"{found.power:.1f}", f"{found.idle:.1f}", f"{found.heat:.1f}",
-                     f"{found.work:.1f}", f"{lost:.1f}")
+                     f"{round(found.work, 1) + 0.0:.1f}", f"{lost:.1f}")
                 )  # fmt: skip
     return rows
 
