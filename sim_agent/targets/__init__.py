@@ -1,0 +1,1 @@
+"""Recordings of calibration targets, drawn and moved with all their truth known."""
