@@ -7,6 +7,7 @@ the end are left out and the rest solved again.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,8 @@ from robot_agent.calibration.robust import WILD, huber_cost, huber_weights, sigm
 from weaver_shared.transforms import Pose
 
 Array = NDArray[np.float64]
+
+Free = Literal["all", "places", "poses"]
 
 MOST_STEPS = 60
 ROUNDS = 4
@@ -45,17 +48,20 @@ class RigEstimate:
         return np.sqrt(np.diag(self.covariance)[: 8 * self.rig.eyes]).reshape(-1, 8)
 
 
-def solve_rig(rig: Rig, poses: list[Pose], table: CornerTable, *, lenses_free: bool = True) -> RigEstimate:
-    """From a start near enough; `lenses_free` False leaves the intrinsics as they are."""
+def solve_rig(rig: Rig, poses: list[Pose], table: CornerTable, *, free: Free = "all") -> RigEstimate:
+    """From a start near enough. `free` says what is unknown beside the poses of the target.
+
+    Everything, only where the eyes stand ("places"), or nothing ("poses").
+    """
     used = np.ones(len(table), dtype=np.bool_)
     for _ in range(ROUNDS):
         left = residuals(*_state(rig, poses), *_rows(table))
         sigma = sigma_of(left[used])
-        rig, poses = _minimise(rig, poses, table.only(used), sigma, lenses_free)
+        rig, poses = _minimise(rig, poses, table.only(used), sigma, free)
         left = residuals(*_state(rig, poses), *_rows(table))
         sigma = sigma_of(left[used])
         used = np.linalg.norm(left, axis=1) < WILD * sigma
-    covariance = _covariance(rig, poses, table.only(used), sigma, lenses_free)
+    covariance = _covariance(rig, poses, table.only(used), sigma, free)
     return RigEstimate(
         rig=rig,
         first_from_target=tuple(poses),
@@ -68,7 +74,7 @@ def solve_rig(rig: Rig, poses: list[Pose], table: CornerTable, *, lenses_free: b
 
 
 def _minimise(
-    rig: Rig, poses: list[Pose], table: CornerTable, sigma: float, lenses_free: bool
+    rig: Rig, poses: list[Pose], table: CornerTable, sigma: float, free: Free
 ) -> tuple[Rig, list[Pose]]:
     rows = _rows(table)
     damping = 1e-4
@@ -77,7 +83,7 @@ def _minimise(
     for _ in range(MOST_STEPS):
         blocks = normal_equations(*_state(rig, poses), *rows, huber_weights(left, sigma))
         while True:
-            rig_step, view_steps = _step(blocks, damping, _fixed(rig, lenses_free))
+            rig_step, view_steps = _step(blocks, damping, _fixed(rig, free))
             candidate, candidate_poses = _moved(rig, poses, rig_step, view_steps)
             left_then = residuals(*_state(candidate, candidate_poses), *rows)
             cost_then = huber_cost(left_then, sigma)
@@ -115,27 +121,28 @@ def _step(
     return step, views
 
 
-def _covariance(rig: Rig, poses: list[Pose], table: CornerTable, sigma: float, lenses_free: bool) -> Array:
+def _covariance(rig: Rig, poses: list[Pose], table: CornerTable, sigma: float, free: Free) -> Array:
     left = residuals(*_state(rig, poses), *_rows(table))
     by_view, across, by_rig, _, _ = normal_equations(*_state(rig, poses), *_rows(table), huber_weights(left, sigma))
     solved = np.linalg.solve(by_view + 1e-9 * np.eye(6), across)
     reduced = by_rig - np.einsum("via,vib->ab", across, solved)
-    free = np.flatnonzero(~_fixed(rig, lenses_free))
+    unknown = np.flatnonzero(~_fixed(rig, free))
     covariance = np.zeros_like(by_rig)
-    if len(free):
-        scale = 1.0 / np.sqrt(np.maximum(np.diag(reduced)[free], 1e-12))
-        inverse = np.linalg.pinv(reduced[np.ix_(free, free)] * scale[:, None] * scale, hermitian=True)
-        covariance[np.ix_(free, free)] = inverse * scale[:, None] * scale
+    if len(unknown):
+        scale = 1.0 / np.sqrt(np.maximum(np.diag(reduced)[unknown], 1e-12))
+        inverse = np.linalg.pinv(reduced[np.ix_(unknown, unknown)] * scale[:, None] * scale, hermitian=True)
+        covariance[np.ix_(unknown, unknown)] = inverse * scale[:, None] * scale
     return covariance
 
 
-def _fixed(rig: Rig, lenses_free: bool) -> NDArray[np.bool_]:
-    """Parameters that stay: distortion of a lens without any, and the lenses where they are known."""
+def _fixed(rig: Rig, free: Free) -> NDArray[np.bool_]:
+    """Parameters that stay: distortion of a lens without any, and what is known."""
     fixed = np.zeros(8 * rig.eyes + 6 * (rig.eyes - 1), dtype=np.bool_)
     for eye, model in enumerate(rig.models):
-        fixed[8 * eye : 8 * eye + 8] = not lenses_free
+        fixed[8 * eye : 8 * eye + 8] = free != "all"
         if model == "none":
             fixed[8 * eye + 4 : 8 * eye + 8] = True
+    fixed[8 * rig.eyes :] = free == "poses"
     return fixed
 
 
