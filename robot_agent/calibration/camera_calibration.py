@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from robot_agent.calibration.corner_table import CornerTable
 from robot_agent.calibration.first_guess import guess_between, guess_lens, locate
-from robot_agent.calibration.lens import camera_of
 from robot_agent.calibration.rig import Rig
 from robot_agent.calibration.rig_batch import RigEstimate, solve_rig
 from robot_agent.calibration.sightings import Session, View
@@ -46,13 +45,18 @@ def calibrate_cameras(session: Session, target: Target, model: Distortion) -> Ri
     return solve_rig(rig, poses, CornerTable.of(views, target, range(session.eyes)))
 
 
+def spread_views(views: Sequence[View], count: int) -> tuple[View, ...]:
+    """At most `count` views, evenly over the recording; of each stretch the one that shows most of the target."""
+    if len(views) <= count:
+        return tuple(views)
+    stretches = np.array_split(np.arange(len(views)), count)
+    return tuple(views[max(stretch, key=lambda k: views[k].seen)] for stretch in stretches)
+
+
 def locate_views(rig: Rig, views: Sequence[View], target: Target) -> tuple[list[View], list[Pose]]:
     """first_from_target of every view in which one eye can tell it; the others are left out."""
     located, poses = [], []
-    cameras = [
-        camera_of(model, intrinsics, size)
-        for model, intrinsics, size in zip(rig.models, rig.intrinsics, rig.sizes, strict=True)
-    ]
+    cameras = rig.cameras
     for view in views:
         best = max(
             (eye for eye, sighting in enumerate(view.eyes) if sighting is not None),
@@ -84,7 +88,7 @@ def _alone(session: Session, eye: int, target: Target, model: Distortion) -> Rig
 
 def _between(session: Session, target: Target, lenses: list[RigEstimate], eye: int) -> Pose:
     pairs = []
-    cameras = [camera_of(lens.rig.models[0], lens.rig.intrinsics[0], lens.rig.sizes[0]) for lens in (lenses[0], lenses[eye])]
+    cameras = [lenses[0].rig.cameras[0], lenses[eye].rig.cameras[0]]
     for view in session.views:
         sightings = (view.eyes[0], view.eyes[eye])
         poses = [

@@ -15,7 +15,7 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from robot_agent.calibration.camera_calibration import locate_views
 from robot_agent.calibration.corner_table import CornerTable
-from robot_agent.calibration.inertial_kernels import BIASES, CONTROL, MOVE, OFFSET, PULL, REACH, TURN, add_inertia, add_pictures
+from robot_agent.calibration.inertial_kernels import BIASES, CONTROL, MOVE, OFFSET, PULL, REACH, SCALE, TURN, add_inertia, add_pictures
 from robot_agent.calibration.inertial_start import InertialStart, align, seconds_of
 from robot_agent.calibration.rig import Rig
 from robot_agent.calibration.rig_batch import solve_rig
@@ -70,6 +70,8 @@ class InertialEstimate:
     gyro_errors: Array  # (m, 3) in sigmas of the IMU's own noise
     accel_errors: Array  # (m, 3)
     pictures: int
+    target_scale: float  # by the accelerometer, over what the target's file says
+    target_scale_sigma: float
     start: InertialStart
 
 
@@ -171,8 +173,13 @@ class _Batch:
 
     def estimate(self, trajectory: Trajectory, start: InertialStart) -> InertialEstimate:
         equations = self._equations(trajectory)
-        covariance = np.linalg.inv(_reduced(equations, 1e-9)[0])
+        reduced, slope, _ = _reduced(equations, 1e-9)
+        known = np.delete(np.arange(len(reduced)), SCALE)
+        covariance = np.zeros_like(reduced)
+        covariance[np.ix_(known, known)] = np.linalg.inv(reduced[np.ix_(known, known)])
         sigma = np.sqrt(np.diag(covariance))
+        # One step with the target's size unknown too: where it would go, and how sure.
+        inverse = np.linalg.inv(reduced)
         return InertialEstimate(
             imu_from_camera=trajectory.imu_from_camera,
             time_offset=trajectory.time_offset,
@@ -187,6 +194,8 @@ class _Batch:
             gyro_errors=equations.inertial_errors[:, :3],
             accel_errors=equations.inertial_errors[:, 3:],
             pictures=len(self._stamps),
+            target_scale=1.0 - float(inverse[SCALE] @ slope),
+            target_scale_sigma=float(np.sqrt(inverse[SCALE, SCALE])),
             start=start,
         )
 
@@ -276,9 +285,12 @@ def _reduced(equations: _Equations, damping: float) -> tuple[Array, Array, Array
 
 
 def _solve(equations: _Equations, damping: float) -> tuple[Array, Array]:
+    """Steps of the spline's columns and of the border's; the target's size is taken as given."""
     reduced, gradient, solved = _reduced(equations, damping)
-    scale = 1.0 / np.sqrt(np.maximum(np.diag(reduced), 1e-12))
-    step = -scale * np.linalg.solve(reduced * scale[:, None] * scale, gradient * scale)
+    known = np.delete(np.arange(len(reduced)), SCALE)
+    scale = 1.0 / np.sqrt(np.maximum(np.diag(reduced)[known], 1e-12))
+    step = np.zeros(len(reduced))
+    step[known] = -scale * np.linalg.solve(reduced[np.ix_(known, known)] * scale[:, None] * scale, gradient[known] * scale)
     return -solved[:, -1] - solved[:, :-1] @ step, step
 
 

@@ -1,7 +1,7 @@
 """Normal equations of a pose spline seen by camera and IMU: a band for the spline, a dense border for the rest.
 
-Border columns: imu_from_camera (rotation on its right, then translation), time offset, gravity in the target's frame,
-then gyro and accelerometer bias at each node. Spline columns: rotation (on its right) and position of each control.
+Border columns: imu_from_camera (rotation on its right, then translation), time offset, the target's scale, gravity in
+the target's frame, then gyro and accelerometer bias at each node. Spline columns: rotation (on its right) and position of each control.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ CONTROL = 6
 REACH = 36
 """Columns one instant depends on: six controls."""
 
-TURN, MOVE, OFFSET, PULL, BIASES = 0, 3, 6, 7, 10
+TURN, MOVE, OFFSET, SCALE, PULL, BIASES = 0, 3, 6, 7, 8, 11
 """Where in the border each part begins."""
 
 
@@ -164,7 +164,7 @@ def add_pictures(
         )
         back = np.ascontiguousarray(rotation.T)
         camera_from_target = camera_from_imu @ back
-        squares, slope = np.zeros((6, 6)), np.zeros(6)
+        squares, slope = np.zeros((7, 7)), np.zeros(7)
         for c in range(first_corner[k], first_corner[k + 1]):
             seen = camera_from_target @ (points[c] - position) - camera_from_imu @ camera_in_imu
             e = eyes[c]
@@ -184,25 +184,28 @@ def add_pictures(
             else:
                 cost += 0.5 * length * length
             by_place = by_point @ eye_rotations[e] / sigma
-            by_step = np.empty((2, 6))
+            by_step = np.empty((2, 7))
             by_step[:, :3] = -by_place @ cross_matrix(seen)
-            by_step[:, 3:] = by_place
+            by_step[:, 3:6] = by_place
+            # Target and distance between the eyes grow together: the latter was measured with the former.
+            by_step[:, 6] = by_place @ (camera_from_target @ points[c]) + by_point @ eye_positions[e] / sigma
             squares += weight * (by_step.T @ by_step)
             slope += weight * (by_step.T @ errors[c])
-        chain = np.zeros((6, REACH + PULL))
+        chain = np.zeros((7, REACH + PULL))
+        chain[6, REACH + SCALE] = 1.0
         # A turn of the IMU (in its frame) and how it moves the camera, by its lever.
         by_imu_turn = np.zeros((6, 3))
         by_imu_turn[:3] = -camera_from_imu
         by_imu_turn[3:] = camera_from_imu @ cross_matrix(camera_in_imu)
         for j in range(6):
             share = lambdas[0, j] - (lambdas[0, j + 1] if j < 5 else 0.0)
-            chain[:, 6 * j : 6 * j + 3] = by_imu_turn @ by_turn[j]
-            chain[3:, 6 * j + 3 : 6 * j + 6] = -share * camera_from_target
+            chain[:6, 6 * j : 6 * j + 3] = by_imu_turn @ by_turn[j]
+            chain[3:6, 6 * j + 3 : 6 * j + 6] = -share * camera_from_target
         for i in range(3):
             chain[i, REACH + TURN + i] = -1.0
-        chain[3:, REACH + MOVE : REACH + MOVE + 3] = -camera_from_imu
-        chain[:, REACH + OFFSET] = by_imu_turn @ rate
-        chain[3:, REACH + OFFSET] -= camera_from_target @ velocity
+        chain[3:6, REACH + MOVE : REACH + MOVE + 3] = -camera_from_imu
+        chain[:6, REACH + OFFSET] = by_imu_turn @ rate
+        chain[3:6, REACH + OFFSET] -= camera_from_target @ velocity
         add_block(squares, slope, chain, 6 * first, border, band, across, dense, gradient, border_gradient)
     return cost
 
@@ -212,7 +215,7 @@ def add_block(
     squares: Array, slope: Array, chain: Array, begin: int, border: Numbers, band: Array, across: Array, dense: Array,
     gradient: Array, border_gradient: Array,
 ) -> None:  # fmt: skip
-    """Add a block (6, 6) of normal equations through the derivative `chain` (6, 36 + b) of its six columns."""
+    """Add a block (k, k) of normal equations through the derivative `chain` (k, 36 + b) of its columns."""
     spread = np.ascontiguousarray(chain.T)
     wide = spread @ (squares @ chain)
     slopes = spread @ slope

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.calibration.lens import MODELS, camera_of, intrinsics_of
-from robot_agent.vision.camera import Distortion, StereoCalibration
+from robot_agent.vision.camera import Distortion, PinholeCamera, StereoCalibration
 from weaver_shared.transforms import Pose, rotation_exp
 
 Array = NDArray[np.float64]
@@ -51,20 +51,19 @@ class Rig:
         return np.array([pose.position for pose in self.eye_from_first])
 
     @property
-    def baseline(self) -> float:
-        """Between the eyes' centres, m."""
-        return float(np.linalg.norm(self.eye_from_first[1].position))
-
-    def stereo(self, body_from_first: Pose | None = None, time_offset: float = 0.0) -> StereoCalibration:
-        """As the pipeline takes it; the body is the first eye unless said otherwise."""
-        body_from_first = Pose.identity() if body_from_first is None else body_from_first
-        left, right = (
-            camera_of(model, intrinsics, size, body_from_first @ pose.inverse())
+    def cameras(self) -> list[PinholeCamera]:
+        """Each eye in a body frame that is the first eye's own."""
+        return [
+            camera_of(model, intrinsics, size, pose.inverse())
             for model, intrinsics, size, pose in zip(
                 self.models, self.intrinsics, self.sizes, self.eye_from_first, strict=True
             )
-        )
-        return StereoCalibration(left=left, right=right, time_offset=time_offset)
+        ]
+
+    @property
+    def baseline(self) -> float:
+        """Between the eyes' centres, m."""
+        return float(np.linalg.norm(self.eye_from_first[1].position))
 
 
 def moved(pose: Pose, step: Array) -> Pose:
