@@ -25,7 +25,7 @@ from weaver_shared.transforms import rotation_log
 GRID = AprilGrid(columns=6, rows=6, tag_size=0.055, spacing=0.3)
 DISTANCE = 0.55
 CAMERA_VIEWS = 100
-RATE = 15.0
+RATE = 10.0
 """Pictures a second."""
 
 
@@ -58,7 +58,7 @@ class CalibrationRun:
 def calibrate_rendered(
     seed: int, model: Distortion, seconds: float, progress: Callable[[int], None] = lambda _: None
 ) -> CalibrationRun:
-    """One recording of `seconds` at 15 Hz, from pictures to the camera-IMU result; nothing but files' contents goes in."""
+    """One recording of `seconds` at 10 Hz, from pictures to the camera-IMU result; nothing but files' contents goes in."""
     generator = np.random.default_rng(seed)
     truth = draw_rig(generator, model)
     imu = load_robot("weaver").imu

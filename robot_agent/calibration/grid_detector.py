@@ -68,14 +68,16 @@ class GridDetector:
         return self._consistent(found)
 
     def _consistent(self, found: dict[int, Array]) -> dict[int, Array]:
-        """Without the tags that do not lie where their neighbours on the grid say."""
-        return {tag: quad for tag, quad in found.items() if self._agrees(tag, quad, found)}
-
-    def _agrees(self, tag: int, quad: Array, found: dict[int, Array]) -> bool:
-        predicted = self._predict(tag, {other: corners for other, corners in found.items() if other != tag})
-        if predicted is None:
-            return False
-        return bool(np.linalg.norm(predicted - quad, axis=1).max() < 0.3 * np.sqrt(abs(_area(quad))))
+        """Without the tags that lie on another place of the plane than the grid says, as good as the lens lets tell."""
+        if len(found) < LEAST_TAGS:
+            return {}
+        tags = np.array(sorted(found))
+        seen = np.array([found[tag].mean(axis=0) for tag in tags])
+        plane, _ = cv2.findHomography(seen, self._centres[tags], cv2.RANSAC, 0.5 * self._grid.pitch)
+        if plane is None:
+            return {}
+        off = np.linalg.norm(_through(plane, seen) - self._centres[tags], axis=1)
+        return {int(tag): found[int(tag)] for tag in tags[off < 0.8 * self._grid.pitch]}
 
     def _complete(self, picture: Picture, found: dict[int, Array]) -> None:
         """Add the tags that were not decoded but are where the grid expects them, spreading from those found."""
@@ -113,9 +115,7 @@ class GridDetector:
         middles = (np.arange(TAG_CELLS) + 0.5) / TAG_CELLS
         grid = np.stack([axis.ravel() for axis in np.meshgrid(middles, middles)], axis=1)
         corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-        homography, _ = cv2.findHomography(corners, quad)
-        if homography is None:
-            return False
+        homography = cv2.getPerspectiveTransform(corners.astype(np.float32), quad.astype(np.float32))
         at = _through(homography, grid).astype(np.float32)
         values = cv2.remap(picture, at[:, 0], at[:, 1], cv2.INTER_LINEAR).ravel().astype(np.float64)
         white = self._cells[tag].ravel() > 0

@@ -15,6 +15,7 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from robot_agent.calibration.camera_calibration import locate_views
 from robot_agent.calibration.corner_table import CornerTable
+from robot_agent.calibration.excitation import check_excitation
 from robot_agent.calibration.inertial_kernels import BIASES, CONTROL, MOVE, OFFSET, PULL, REACH, SCALE, TURN, add_inertia, add_pictures
 from robot_agent.calibration.inertial_start import InertialStart, align, seconds_of
 from robot_agent.calibration.rig import Rig
@@ -88,6 +89,10 @@ def calibrate_imu(
     poses = list(refined.first_from_target)
     origin_ns = located[0].stamp_ns
     stamps = np.array([(view.stamp_ns - origin_ns) * 1e-9 for view in located])
+    during = (inertia.stamp_ns >= located[0].stamp_ns) & (inertia.stamp_ns <= located[-1].stamp_ns)
+    if during.sum() < 100:
+        raise InputError("pictures and IMU samples have no time in common: are they of one recording and one clock?")
+    check_excitation(inertia.angular_velocity_in_imu[during])
     start = align(stamps, poses, seconds_of(inertia, origin_ns), inertia.angular_velocity_in_imu)
     batch = _Batch(rig, refined.table.only(refined.used), stamps, refined.sigma, inertia, origin_ns, imu, start, 1.0 / knots_per_second)
     trajectory = batch.first(poses, start)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.calibration.lens import MODELS, camera_of, intrinsics_of
-from robot_agent.vision.camera import Distortion, PinholeCamera, StereoCalibration
+from robot_agent.vision.camera import Distortion, PinholeCamera
 from weaver_shared.transforms import Pose, rotation_exp
 
 Array = NDArray[np.float64]
@@ -24,9 +25,9 @@ class Rig:
     sizes: tuple[tuple[int, int], ...]  # px
 
     @staticmethod
-    def of(calibration: StereoCalibration) -> Rig:
-        cameras = (calibration.left, calibration.right)
-        first = calibration.left.body_from_camera
+    def of(cameras: Sequence[PinholeCamera]) -> Rig:
+        """Eyes on one body, whichever that is."""
+        first = cameras[0].body_from_camera
         return Rig(
             models=tuple(camera.distortion_model for camera in cameras),
             intrinsics=np.array([intrinsics_of(camera) for camera in cameras]),

@@ -1,7 +1,8 @@
-"""A stereo calibration from Kalibr's `camchain.yaml`: cam0 is the left eye, cam1 the right one."""
+"""Calibrations from Kalibr's `camchain.yaml`: cam0 is the left eye, cam1 the right one."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +17,25 @@ from weaver_shared.transforms import Pose
 MODELS: dict[str, Distortion] = {"none": "none", "radtan": "radtan", "equidistant": "equidistant"}
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CameraChain:
+    """One or more eyes in the first one's optical frame, and the IMU where the file tells of it."""
+
+    cameras: tuple[PinholeCamera, ...]
+    camera_from_imu: Pose | None = None
+    time_offset: float = 0.0  # s, added to a picture's stamp to get the IMU's time
+
+
 def read_camchain(path: Path) -> StereoCalibration:
     """The pair in the left eye's optical frame. Raises InputError naming the key, what was found and what is valid."""
+    chain = read_chain(path)
+    if len(chain.cameras) < 2:
+        raise InputError(f"{path}: cam1 is missing; a stereo pair needs both cam0 and cam1")
+    return StereoCalibration(left=chain.cameras[0], right=chain.cameras[1], time_offset=chain.time_offset)
+
+
+def read_chain(path: Path) -> CameraChain:
+    """All eyes of the file, cam0 first. Raises InputError as `read_camchain` does."""
     try:
         document = yaml.safe_load(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
@@ -25,12 +43,18 @@ def read_camchain(path: Path) -> StereoCalibration:
         raise InputError(f"{path} can not be read as Kalibr's camchain.yaml: {reason}") from error
     if not isinstance(document, dict) or not isinstance(document.get("cam0"), dict):
         raise InputError(f"{path}: cam0 is missing; a camchain.yaml has cam0 and cam1")
-    if not isinstance(document.get("cam1"), dict):
-        raise InputError(f"{path}: cam1 is missing; a stereo pair needs both cam0 and cam1")
-    right_from_left = _pose(_numbers(document["cam1"], "T_cn_cnm1", (4, 4), f"{path}: cam1"), path)
-    return StereoCalibration(
-        left=_camera(document["cam0"], Pose.identity(), f"{path}: cam0"),
-        right=_camera(document["cam1"], right_from_left.inverse(), f"{path}: cam1"),
+    first = document["cam0"]
+    cameras = [_camera(first, Pose.identity(), f"{path}: cam0")]
+    while isinstance(entry := document.get(f"cam{len(cameras)}"), dict):
+        where = f"{path}: cam{len(cameras)}"
+        next_from_last = _pose(_numbers(entry, "T_cn_cnm1", (4, 4), where), f"{where}: T_cn_cnm1")
+        cameras.append(_camera(entry, cameras[-1].body_from_camera @ next_from_last.inverse(), where))
+    told = "T_cam_imu" in first
+    where = f"{path}: cam0"
+    return CameraChain(
+        cameras=tuple(cameras),
+        camera_from_imu=_pose(_numbers(first, "T_cam_imu", (4, 4), where), f"{where}: T_cam_imu") if told else None,
+        time_offset=float(_numbers(first, "timeshift_cam_imu", (), where)) if "timeshift_cam_imu" in first else 0.0,
     )
 
 
@@ -67,12 +91,13 @@ def _numbers(entry: dict[str, Any], key: str, shape: tuple[int, ...], where: str
     except (TypeError, ValueError) as error:
         raise InputError(f"{where}: {key} has to be numbers, found {entry[key]!r:.60}") from error
     if numbers.shape != shape or not np.isfinite(numbers).all():
-        raise InputError(f"{where}: {key} has to be {'x'.join(map(str, shape))} numbers, found {entry[key]!r:.60}")
+        count = f"{'x'.join(map(str, shape))} numbers" if shape else "a number"
+        raise InputError(f"{where}: {key} has to be {count}, found {entry[key]!r:.60}")
     return numbers
 
 
-def _pose(matrix: NDArray[np.float64], path: Path) -> Pose:
+def _pose(matrix: NDArray[np.float64], where: str) -> Pose:
     u, singular, vt = np.linalg.svd(matrix[:3, :3])  # the file's digits are rounded
     if abs(singular - 1.0).max() > 1e-3 or np.linalg.det(u @ vt) < 0.0:
-        raise InputError(f"{path}: cam1: T_cn_cnm1 is no rigid transform")
+        raise InputError(f"{where} is no rigid transform")
     return Pose(rotation=u @ vt, position=matrix[:3, 3])

@@ -1,4 +1,4 @@
-"""Pictures of an AprilGrid through a distorting lens: rays through 16 points of each pixel meet the exact plane.
+"""Pictures of an AprilGrid through a distorting lens: rays through 9 points of each pixel meet the exact plane.
 
 The graphics card's pinhole renderer would need a second, resampling pass for the lens, and resampling moves corners by
 hundredths of a pixel: as much as a calibration is to find.
@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 Picture = NDArray[np.uint8]
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
-FINE = 4
+FINE = 3
 """Rays per pixel along each axis."""
 
 INK, PAPER, SURROUNDINGS = 25.0, 215.0, 60.0
