@@ -58,7 +58,7 @@ class CalibrationRun:
 def calibrate_rendered(
     seed: int, model: Distortion, seconds: float, progress: Callable[[int], None] = lambda _: None
 ) -> CalibrationRun:
-    """One recording of `seconds` at 10 Hz, from pictures to the camera-IMU result; nothing but files' contents goes in."""
+    """One recording of `seconds` at 10 Hz, from pictures to the camera-IMU result; the truth is only compared with."""
     generator = np.random.default_rng(seed)
     truth = draw_rig(generator, model)
     imu = load_robot("weaver").imu

@@ -42,7 +42,8 @@ class Wish:
 def cover_of(session: Session, eye: int) -> NDArray[np.int64]:
     """Corners seen in each field of an eye's picture (6, 8)."""
     width, height = session.sizes[eye]
-    pixels = np.concatenate([view.eyes[eye].pixels for view in session.seen_by(eye) if view.eyes[eye]] or [np.empty((0, 2))])  # type: ignore[union-attr]
+    sightings = [sighting for view in session.views if (sighting := view.eyes[eye]) is not None]
+    pixels = np.concatenate([np.empty((0, 2)), *(sighting.pixels for sighting in sightings)])
     rows = np.clip((pixels[:, 1] / height * COVER[0]).astype(int), 0, COVER[0] - 1)
     columns = np.clip((pixels[:, 0] / width * COVER[1]).astype(int), 0, COVER[1] - 1)
     fields = np.zeros(COVER, dtype=np.int64)
@@ -87,12 +88,7 @@ def _cover_wish(session: Session, eye: int) -> Wish:
     covered = cover_of(session, eye) >= COVERED
     share = float(covered.mean())
     name = EYES[eye] if session.eyes > 1 else "camera's"
-    empty = [
-        AREAS[row][column]
-        for row in range(3)
-        for column in range(3)
-        if _part(covered, row, column).mean() < 0.6
-    ]
+    empty = [AREAS[row][column] for row in range(3) for column in range(3) if _part(covered, row, column).mean() < 0.6]
     return Wish(
         what=f"{100 * share:.0f} % of the {name} picture covered",
         met=share >= ENOUGH_COVER,
@@ -119,7 +115,7 @@ def _tilt_wishes(first_from_target: Sequence[Pose]) -> list[Wish]:
         Wish(
             what=f"{int(tilted.sum())} views with the target tilted, {side}",
             met=int(tilted.sum()) >= ENOUGH_TILTED,
-            advice=f"tilt the target by 20 to 40 degrees, {side}, in {max(0, ENOUGH_TILTED - int(tilted.sum()))} more views",
+            advice=f"tilt the target by 20 to 40 degrees, {side}, in {ENOUGH_TILTED} views or more",
         )
         for side, tilted in sides.items()
     ]

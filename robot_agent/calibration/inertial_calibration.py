@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,11 +17,22 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 from robot_agent.calibration.camera_calibration import locate_views
 from robot_agent.calibration.corner_table import CornerTable
 from robot_agent.calibration.excitation import check_excitation
-from robot_agent.calibration.inertial_kernels import BIASES, CONTROL, MOVE, OFFSET, PULL, REACH, SCALE, TURN, add_inertia, add_pictures
+from robot_agent.calibration.inertial_kernels import (
+    BIASES,
+    CONTROL,
+    MOVE,
+    OFFSET,
+    PULL,
+    REACH,
+    SCALE,
+    TURN,
+    add_inertia,
+    add_pictures,
+)
 from robot_agent.calibration.inertial_start import InertialStart, align, seconds_of
 from robot_agent.calibration.rig import Rig
 from robot_agent.calibration.rig_batch import solve_rig
-from robot_agent.calibration.robust import BEND, WILD
+from robot_agent.calibration.robust import BEND
 from robot_agent.calibration.sightings import View
 from robot_agent.calibration.spline import ORDER, blending
 from robot_agent.calibration.target import Target
@@ -94,7 +106,17 @@ def calibrate_imu(
         raise InputError("pictures and IMU samples have no time in common: are they of one recording and one clock?")
     check_excitation(inertia.angular_velocity_in_imu[during])
     start = align(stamps, poses, seconds_of(inertia, origin_ns), inertia.angular_velocity_in_imu)
-    batch = _Batch(rig, refined.table.only(refined.used), stamps, refined.sigma, inertia, origin_ns, imu, start, 1.0 / knots_per_second)
+    batch = _Batch(
+        rig,
+        refined.table.only(refined.used),
+        stamps,
+        refined.sigma,
+        inertia,
+        origin_ns,
+        imu,
+        start,
+        1.0 / knots_per_second,
+    )
     trajectory = batch.first(poses, start)
     trajectory = batch.solve(trajectory)
     return batch.estimate(trajectory, start)
@@ -140,7 +162,7 @@ class _Batch:
         positions = np.array([pose.inverse().position for pose in camera_from_target])
         times = self._stamps + start.time_offset
         # A control acts most in the middle of its six segments.
-        at = (np.arange(self._segments + ORDER - 1) - 2.0) * self._interval
+        at: Array = (np.arange(self._segments + ORDER - 1, dtype=np.float64) - 2.0) * self._interval
         controls = _rotations_at(times, rotations, at)
         positions = np.stack([np.interp(at, times, column) for column in positions.T], axis=1)
         felt = _rotations_at(times, rotations, self._times) @ self._forces[:, :, None]
@@ -295,7 +317,9 @@ def _solve(equations: _Equations, damping: float) -> tuple[Array, Array]:
     known = np.delete(np.arange(len(reduced)), SCALE)
     scale = 1.0 / np.sqrt(np.maximum(np.diag(reduced)[known], 1e-12))
     step = np.zeros(len(reduced))
-    step[known] = -scale * np.linalg.solve(reduced[np.ix_(known, known)] * scale[:, None] * scale, gradient[known] * scale)
+    step[known] = -scale * np.linalg.solve(
+        reduced[np.ix_(known, known)] * scale[:, None] * scale, gradient[known] * scale
+    )
     return -solved[:, -1] - solved[:, :-1] @ step, step
 
 
@@ -320,6 +344,6 @@ def _moved(trajectory: Trajectory, step: Array, border: Array) -> Trajectory:
 def _rotations_at(times: Array, rotations: Array, wanted: Array) -> Array:
     """Rotations (n, 3, 3) in between, at constant rate from one to the next."""
     begin = np.clip(np.searchsorted(times, wanted, side="right") - 1, 0, len(times) - 2)
-    steps = np.array([rotation_log(a.T @ b) for a, b in zip(rotations, rotations[1:], strict=False)])
+    steps = np.array([rotation_log(a.T @ b) for a, b in pairwise(rotations)])
     late = np.clip((wanted - times[begin]) / (times[begin + 1] - times[begin]), 0.0, 1.0)
     return np.array([rotations[k] @ rotation_exp(share * steps[k]) for k, share in zip(begin, late, strict=True)])

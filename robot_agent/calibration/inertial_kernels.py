@@ -1,7 +1,8 @@
 """Normal equations of a pose spline seen by camera and IMU: a band for the spline, a dense border for the rest.
 
 Border columns: imu_from_camera (rotation on its right, then translation), time offset, the target's scale, gravity in
-the target's frame, then gyro and accelerometer bias at each node. Spline columns: rotation (on its right) and position of each control.
+the target's frame, then gyro and accelerometer bias at each node. Spline columns: rotation (on its
+right) and position of each control.
 """
 
 from __future__ import annotations

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,9 +41,7 @@ def align(stamps: Array, camera_from_target: list[Pose], times: Array, rates: Ar
             f"only {int(usable.sum())} pictures with the target follow each other within {LONGEST_GAP} s; the "
             "camera-IMU part needs at least 20, at 4 Hz or more"
         )
-    turns = np.array(
-        [rotation_log(a.rotation @ b.rotation.T) for a, b in zip(camera_from_target, camera_from_target[1:], strict=False)]
-    )
+    turns = np.array([rotation_log(a.rotation @ b.rotation.T) for a, b in pairwise(camera_from_target)])
     seen = turns[usable] / gaps[usable, None]
     begins, ends = stamps[:-1][usable], stamps[1:][usable]
     angle = np.concatenate(
@@ -50,7 +49,9 @@ def align(stamps: Array, camera_from_target: list[Pose], times: Array, rates: Ar
     )
 
     def at(offset: float) -> tuple[float, Array, Array]:
-        felt = (_between(times, angle, ends + offset) - _between(times, angle, begins + offset)) / (ends - begins)[:, None]
+        felt = (_between(times, angle, ends + offset) - _between(times, angle, begins + offset)) / (ends - begins)[
+            :, None
+        ]
         known = (begins + offset >= times[0]) & (ends + offset <= times[-1])
         if known.sum() < max(10, 0.5 * len(known)):
             return np.inf, np.eye(3), np.zeros(3)

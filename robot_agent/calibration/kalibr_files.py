@@ -84,7 +84,7 @@ def write_imu(imu: Imu, path: Path, topic: str = "/imu0") -> None:
 
 
 def write_camchain(rig: Rig, path: Path, camera_from_imu: Pose | None = None, time_offset: float = 0.0) -> None:
-    """All eyes, each from the one before; with `camera_from_imu` also where the IMU is and how late the pictures are."""
+    """All eyes, each from the one before; with `camera_from_imu` also the IMU's place and the delay (s)."""
     document: dict[str, Any] = {}
     for eye, (model, intrinsics, size) in enumerate(zip(rig.models, rig.intrinsics, rig.sizes, strict=True)):
         entry: dict[str, Any] = {}

@@ -22,7 +22,8 @@ STYLE = (
     "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}"
     "table{border-collapse:collapse}td,th{padding:.2rem .8rem;border-bottom:1px solid #ccc;text-align:right}"
     "td:first-child,th:first-child{text-align:left}svg{max-width:100%;height:auto;border:1px solid #ccc}"
-    ".verdict{padding:.6rem 1rem;border-left:.4rem solid;font-weight:600}.good{border-color:#2a7}.bad{border-color:#c33}"
+    ".verdict{padding:.6rem 1rem;border-left:.4rem solid;font-weight:600}"
+    ".good{border-color:#2a7}.bad{border-color:#c33}"
 )
 
 
@@ -68,7 +69,9 @@ def as_html(title: str, verdict: Verdict, sections: Sequence[Section]) -> str:
                 "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in section.rows
             )
             body.append(f"<table><tr>{head}</tr>{rows}</table>")
-        body += [f"<figure>{svg}<figcaption>{html.escape(caption)}</figcaption></figure>" for caption, svg in section.plots]
+        body += [
+            f"<figure>{svg}<figcaption>{html.escape(caption)}</figcaption></figure>" for caption, svg in section.plots
+        ]
     return (
         f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{html.escape(title)}</title>'
         f"<style>{STYLE}</style>{''.join(body)}</html>\n"
@@ -84,7 +87,9 @@ def camera_sections(estimate: RigEstimate, session: Session, wished: Sequence[Wi
                 f"{len(session.views)} of {session.pictures} pictures show the target",
                 *(f"{wish.what}: {'good' if wish.met else wish.advice}" for wish in wished),
             ),
-            plots=(("Residual of each view (root mean square).", bar_plot(view_rms(estimate), "px", "views in order")),),
+            plots=(
+                ("Residual of each view (root mean square).", bar_plot(view_rms(estimate), "px", "views in order")),
+            ),
         )
     ]
     for eye, model in enumerate(rig.models):
@@ -169,7 +174,12 @@ def inertial_sections(estimate: InertialEstimate) -> list[Section]:
             title="IMU",
             head=("axis", "gyro bias, rad/s", "accelerometer bias, m/s^2", "gravity in the target's frame, m/s^2"),
             rows=tuple(
-                (axis, f"{estimate.gyro_bias[k]:.5f}", f"{estimate.accel_bias[k]:.4f}", f"{estimate.gravity_in_target[k]:.4f}")
+                (
+                    axis,
+                    f"{estimate.gyro_bias[k]:.5f}",
+                    f"{estimate.accel_bias[k]:.4f}",
+                    f"{estimate.gravity_in_target[k]:.4f}",
+                )
                 for k, axis in enumerate("xyz")
             ),
         ),

@@ -73,9 +73,7 @@ def solve_rig(rig: Rig, poses: list[Pose], table: CornerTable, *, free: Free = "
     )
 
 
-def _minimise(
-    rig: Rig, poses: list[Pose], table: CornerTable, sigma: float, free: Free
-) -> tuple[Rig, list[Pose]]:
+def _minimise(rig: Rig, poses: list[Pose], table: CornerTable, sigma: float, free: Free) -> tuple[Rig, list[Pose]]:
     rows = _rows(table)
     damping = 1e-4
     left = residuals(*_state(rig, poses), *rows)

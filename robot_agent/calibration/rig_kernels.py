@@ -52,7 +52,7 @@ def normal_equations(
     pixels: Array,
     weights: Array,
 ) -> tuple[Array, Array, Array, Array, Array]:
-    """Blocks view-view (v, 6, 6), view-rig (v, 6, m), rig-rig (m, m) and gradients (v, 6), (m,) of the weighted squares.
+    """Blocks view-view (v, 6, 6), view-rig (v, 6, m), rig-rig (m, m), gradients (v, 6), (m,) of the weighted squares.
 
     Rig columns: 8 intrinsics per eye, then 6 per eye but the first (rotation, translation, applied after its pose).
     """

@@ -94,9 +94,7 @@ class Checkerboard:
         """Corners (columns rows, 3) in the target's frame, m."""
         x = self.column_spacing * np.arange(self.columns)
         y = self.row_spacing * np.arange(self.rows)
-        return np.stack(
-            [*(axis.ravel() for axis in np.meshgrid(x, y)), np.zeros(self.columns * self.rows)], axis=1
-        )
+        return np.stack([*(axis.ravel() for axis in np.meshgrid(x, y)), np.zeros(self.columns * self.rows)], axis=1)
 
     @property
     def size(self) -> tuple[float, float]:
@@ -115,4 +113,4 @@ Target = AprilGrid | Checkerboard
 
 def _edges(count: int, pitch: float, tag_size: float) -> Array:
     """Both edges of every tag along one axis (2 count,), m."""
-    return (pitch * np.arange(count)[:, None] + (0.0, tag_size)).ravel()
+    return np.asarray((pitch * np.arange(count)[:, None] + np.array([0.0, tag_size])).ravel(), dtype=np.float64)

@@ -44,6 +44,14 @@ def fitting_grid(page: str, columns: int, rows: int, spacing: float) -> AprilGri
     return AprilGrid(columns=columns, rows=rows, tag_size=round(float(tag_size), 3), spacing=spacing)
 
 
+def fitting_board(page: str, columns: int, rows: int) -> Checkerboard:
+    """The chessboard with the largest squares, in whole millimetres, that a page holds; a white rim of one is left."""
+    width, height = _size(page, columns > rows)
+    room = min((width - 2.0 * MARGIN) / (columns + 1), (height - 2.0 * MARGIN - FOOT) / (rows + 1))
+    square = round(float(np.floor(1e3 * room) * 1e-3), 3)
+    return Checkerboard(columns=columns, rows=rows, column_spacing=square, row_spacing=square)
+
+
 def target_pdf(target: Target, page: str) -> bytes:
     """Raises InputError where the target does not fit on the page."""
     border = target.spacing * target.tag_size if isinstance(target, AprilGrid) else target.column_spacing
@@ -126,6 +134,5 @@ def _pdf(width: float, height: float, ink: list[Rectangle], texts: list[tuple[fl
         document += b"%d 0 obj\n%s\nendobj\n" % (number, body)
     table = b"".join(b"%010d 00000 n \n" % begin for begin in begins)
     size = len(objects) + 1
-    return document + b"xref\n0 %d\n0000000000 65535 f \n%strailer\n<< /Size %d /Root 1 0 R >>\nstartxref\n%d\n%%%%EOF\n" % (
-        size, table, size, len(document),
-    )  # fmt: skip
+    trailer = b"trailer\n<< /Size %d /Root 1 0 R >>\nstartxref\n%d\n%%%%EOF\n" % (size, len(document))
+    return document + b"xref\n0 %d\n0000000000 65535 f \n%s" % (size, table) + trailer

@@ -67,7 +67,9 @@ def judge_cameras(estimate: RigEstimate, wished: list[Wish]) -> Verdict:
         if focal > FOCAL_SIGMA:
             faults.append(f"the {name} eye's focal length is known to {100 * focal:.2f} % only; tilt the target more")
         if float(sigma[eye, 2:4].max()) > CENTRE_SIGMA:
-            faults.append(f"the {name} eye's centre is known to {sigma[eye, 2:4].max():.1f} px only; tilt the target more")
+            faults.append(
+                f"the {name} eye's centre is known to {sigma[eye, 2:4].max():.1f} px only; tilt the target more"
+            )
         pattern = pattern_of(estimate, eye)
         if pattern > max(LEAST_PATTERN, PATTERN * estimate.sigma):
             doubts.append(
@@ -78,7 +80,9 @@ def judge_cameras(estimate: RigEstimate, wished: list[Wish]) -> Verdict:
         along = np.concatenate([np.zeros(3), rig.eye_from_first[1].position / max(rig.baseline, 1e-9)])
         baseline = float(np.sqrt(along @ estimate.covariance[-6:, -6:] @ along))
         if baseline > BASELINE_SIGMA:
-            faults.append(f"the baseline is known to {1e3 * baseline:.2f} mm only; show the target to both eyes more often")
+            faults.append(
+                f"the baseline is known to {1e3 * baseline:.2f} mm only; show the target to both eyes more often"
+            )
     wild = 1.0 - float(estimate.used.mean())
     if wild > 0.02:
         doubts.append(f"{100 * wild:.1f} % of the corners were wild and left out")
@@ -90,8 +94,8 @@ def judge_imu(estimate: InertialEstimate) -> Verdict:
     turn = int(np.argmax(estimate.rotation_sigma))
     if estimate.rotation_sigma[turn] > TURN_SIGMA:
         faults.append(
-            f"the turn about the camera's {AXES[turn]} axis is known to {np.degrees(estimate.rotation_sigma[turn]):.2f} "
-            "degrees only; turn the rig about its other axes"
+            f"the turn about the camera's {AXES[turn]} axis is known to "
+            f"{np.degrees(estimate.rotation_sigma[turn]):.2f} degrees only; turn the rig about its other axes"
         )
     spread, axes = np.linalg.eigh(estimate.position_covariance)
     if np.sqrt(spread[-1]) > LEVER_SIGMA:
@@ -101,7 +105,9 @@ def judge_imu(estimate: InertialEstimate) -> Verdict:
             f"turn the rig about axes across its {axis} axis, fast"
         )
     if estimate.time_offset_sigma > OFFSET_SIGMA:
-        faults.append(f"the time offset is known to {1e6 * estimate.time_offset_sigma:.0f} us only; turn the rig faster")
+        faults.append(
+            f"the time offset is known to {1e6 * estimate.time_offset_sigma:.0f} us only; turn the rig faster"
+        )
     if abs(estimate.target_scale - 1.0) > max(SCALE_ERROR, 5.0 * estimate.target_scale_sigma):
         faults.append(
             f"by the accelerometer the target is {100.0 * estimate.target_scale:.1f} % of the size its file says: "

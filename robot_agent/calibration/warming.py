@@ -20,9 +20,10 @@ def warm_up() -> None:
     lens = np.array([200.0, 200.0, 160.0, 120.0, 0.0, 0.0, 0.0, 0.0])
     rig = Rig(models=("radtan",), intrinsics=lens[None], eye_from_first=(Pose.identity(),), sizes=((320, 240),))
     facing, middle = np.diag([1.0, -1.0, -1.0]), np.array([*grid.size, 0.0]) / 2.0
+    above = np.array([0.0, 0.0, 0.6])
     times = np.arange(0.0, 2.0, 0.005)
     turns = 0.2 * np.sin(np.outer(times, [4.0, 5.0, 6.0]))
-    poses = [Pose(rotation=facing @ rotation_exp(turn), position=middle + (0.0, 0.0, 0.6)) for turn in turns]
+    poses = [Pose(rotation=facing @ rotation_exp(turn), position=middle + above) for turn in turns]
     views = []
     for k in range(10, len(times) - 10, 10):
         pixels, _, _ = project_points(1, lens, poses[k].inverse().transform(grid.points))

@@ -93,4 +93,4 @@ def inertia_along(
 
 def gravity_before(tilt: Array) -> Array:
     """Gravity (3,) in the frame of a target that hangs on a wall, leaning by a rotation vector `tilt` (rad)."""
-    return rotation_exp(tilt) @ np.array([0.0, -GRAVITY, 0.0])
+    return np.asarray(rotation_exp(tilt) @ np.array([0.0, -GRAVITY, 0.0]))

@@ -104,4 +104,3 @@ class TargetRecording:
                 for renderer, place in zip(self._renderers, self._truth.rig.eye_from_first, strict=True)
             ]
             yield round((time - self._truth.time_offset) * 1e9), pictures
-
