@@ -52,15 +52,11 @@ def made_up(
         )
         views.append(View(stamp_ns=round((time - truth.time_offset) * 1e9), eyes=eyes))
     times = np.arange(0.0, seconds + 0.2, 1.0 / IMU.rate)
-    inertia = inertia_along(
-        motion, truth.camera_from_imu, times, truth.gravity_in_target, IMU, truth.biases, generator
-    )
+    inertia = inertia_along(motion, truth.camera_from_imu, times, truth.gravity_in_target, IMU, truth.biases, generator)
     return Scene(truth=truth, views=tuple(view for view in views if view.seen), inertia=inertia)
 
 
-def sighting(
-    rig: Rig, eye: int, points: np.ndarray, noise: float, generator: np.random.Generator
-) -> Sighting | None:
+def sighting(rig: Rig, eye: int, points: np.ndarray, noise: float, generator: np.random.Generator) -> Sighting | None:
     """What a perfect detector would give of points (n, 3) in the eye's frame; None for less than 16 corners."""
     pixels = project(rig.cameras[eye], points)
     inside = ((pixels > 5.0) & (pixels < np.array(rig.sizes[eye]) - 6.0)).all(axis=1)

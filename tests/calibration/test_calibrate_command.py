@@ -1,0 +1,227 @@
+"""`weaver calibrate` on a rendered recording and on real chessboards, with good and bad input."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from target_scenes import GRID, IMU
+
+from robot_agent.calibration.chessboard_detector import ChessboardDetector
+from robot_agent.calibration.kalibr_files import write_camchain, write_imu, write_target
+from robot_agent.calibration.rig import Rig
+from robot_agent.calibration.target import Checkerboard
+from robot_agent.command_line import calibrate
+from robot_agent.vision.camchain import read_chain
+from sim_agent.targets.motion import HandHeldMotion
+from sim_agent.targets.recording import RigTruth, TargetRecording, draw_rig
+from weaver_shared.command_line import main
+from weaver_shared.transforms import Pose, rotation_exp
+
+BOARDS = Path(__file__).resolve().parents[2].parent / "shared" / "data" / "calibration" / "stereo_chessboard"
+SIZE = (320, 240)
+
+
+@pytest.fixture(scope="module")
+def truth() -> RigTruth:
+    return draw_rig(np.random.default_rng(11), "radtan", SIZE)
+
+
+@pytest.fixture(scope="module")
+def recording(truth: RigTruth, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """6 s of rendered pairs at 8 Hz as an ASL folder, with the target's, the IMU's and the true cameras' files."""
+    folder = tmp_path_factory.mktemp("recording")
+    generator = np.random.default_rng(11)
+    motion = HandHeldMotion(GRID, 0.55, generator)
+    made = TargetRecording(truth, GRID, motion, IMU, generator, seconds=6.0, rate=8.0)
+    for eye in range(2):
+        (folder / "mav0" / f"cam{eye}" / "data").mkdir(parents=True)
+    for stamp, pictures in made:
+        for eye, picture in enumerate(pictures):
+            cv2.imwrite(str(folder / "mav0" / f"cam{eye}" / "data" / f"{stamp}.png"), picture)
+    (folder / "mav0" / "imu0").mkdir()
+    rows = np.concatenate([made.inertia.angular_velocity_in_imu, made.inertia.specific_force_in_imu], axis=1)
+    lines = [
+        f"{stamp}," + ",".join(f"{x:.9g}" for x in row) for stamp, row in zip(made.inertia.stamp_ns, rows, strict=True)
+    ]
+    (folder / "mav0" / "imu0" / "data.csv").write_text("#timestamp\n" + "\n".join(lines) + "\n")
+    write_target(GRID, folder / "target.yaml")
+    write_imu(IMU, folder / "imu.yaml")
+    write_camchain(truth.rig, folder / "truth.yaml")
+    return folder
+
+
+Run = Callable[..., tuple[int, dict[str, object], str]]
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    """Exit code, JSON and standard error of `weaver calibrate ... --json --quiet`."""
+
+    def call(*arguments: object) -> tuple[int, dict[str, object], str]:
+        code = main(["calibrate", *map(str, arguments), "--quiet", "--json"])
+        out, err = capsys.readouterr()
+        return code, json.loads(out) if out else {}, err
+
+    return call
+
+
+def test_cameras_of_a_recording(recording: Path, truth: RigTruth, tmp_path: Path, run: Run) -> None:
+    code, report, _ = run("cameras", recording, "--target", recording / "target.yaml", "--out", tmp_path)
+    assert code == 0
+    assert report["usable"], report["faults"]
+    assert report["baseline_m"] == pytest.approx(truth.rig.baseline, abs=5e-4)
+    found = Rig.of(read_chain(tmp_path / "camchain.yaml").cameras)
+    assert np.abs(found.intrinsics[:, :2] / truth.rig.intrinsics[:, :2] - 1.0).max() < 0.01
+    markdown = (tmp_path / "report.md").read_text()
+    assert markdown.startswith("# Calibration of the cameras\n**Usable")
+    assert (tmp_path / "report.html").read_text().count("<svg") == 5
+
+
+def test_camera_and_imu_of_a_recording(recording: Path, truth: RigTruth, tmp_path: Path, run: Run) -> None:
+    files = (
+        "--cameras",
+        recording / "truth.yaml",
+        "--imu",
+        recording / "imu.yaml",
+        "--target",
+        recording / "target.yaml",
+    )
+    code, report, _ = run("imu", recording, *files, "--out", tmp_path, "--knots", 30)
+    assert code == 0
+    assert report["usable"], report["faults"]
+    assert report["timeshift_cam_imu"] == pytest.approx(truth.time_offset, abs=1e-4)
+    np.testing.assert_allclose(report["T_cam_imu"], truth.camera_from_imu.matrix, atol=2e-3)
+    chain = read_chain(tmp_path / "camchain-imucam.yaml")
+    assert chain.time_offset == report["timeshift_cam_imu"]
+    assert "gyro residuals" in (tmp_path / "report.html").read_text()
+
+
+def test_a_true_file_holds_and_a_bent_one_does_not(recording: Path, truth: RigTruth, tmp_path: Path, run: Run) -> None:
+    arguments = ("check", recording, "--target", recording / "target.yaml", "--cameras")
+    code, report, _ = run(*arguments, recording / "truth.yaml")
+    assert (code, report["holds"]) == (0, True)
+    second = truth.rig.eye_from_first[1]
+    bent = Pose(rotation=rotation_exp([0.008, 0.0, 0.0]) @ second.rotation, position=1.02 * second.position)
+    rig = Rig(
+        models=truth.rig.models,
+        intrinsics=truth.rig.intrinsics,
+        eye_from_first=(truth.rig.eye_from_first[0], bent),
+        sizes=truth.rig.sizes,
+    )
+    write_camchain(rig, tmp_path / "bent.yaml")
+    code, report, _ = run(*arguments, tmp_path / "bent.yaml")
+    assert (code, report["holds"]) == (0, False)
+    assert "an eye has moved" in str(report["faults"])
+    assert report["turned_deg"] == pytest.approx(np.degrees(0.008), rel=0.15)
+    assert report["size_ratio"] == pytest.approx(1.02, abs=0.01)
+
+
+def test_real_chessboards_are_as_near_as_opencvs_own(tmp_path: Path, run: Run) -> None:
+    if not BOARDS.is_dir():
+        pytest.skip(f"needs the shared data in {BOARDS}")
+    board = Checkerboard(columns=9, rows=6, column_spacing=0.025, row_spacing=0.025)
+    write_target(board, tmp_path / "target.yaml")
+    code, report, _ = run("cameras", BOARDS, "--target", tmp_path / "target.yaml", "--out", tmp_path / "out")
+    assert (code, report["views"]) == (0, 13)
+    assert report["reprojection_px"] == pytest.approx(opencvs_error(board, our_corners(board)), rel=0.05)
+    assert report["reprojection_px"] < opencvs_error(board, samples_corners())
+    assert report["baseline_m"] == pytest.approx(0.0832, abs=3e-4)
+
+
+Corners = list[list[np.ndarray]]
+
+
+def pictures_of(name: str) -> list[np.ndarray]:
+    return [cv2.imread(str(path), cv2.IMREAD_GRAYSCALE) for path in sorted(BOARDS.glob(f"{name}??.jpg"))]
+
+
+def our_corners(board: Checkerboard) -> Corners:
+    detector = ChessboardDetector(board)
+    found = [[detector.detect(picture) for picture in pictures_of(name)] for name in ("left", "right")]
+    return [[sighting.pixels.astype(np.float32) for sighting in eye if sighting is not None] for eye in found]
+
+
+def samples_corners() -> Corners:
+    """As OpenCV's stereo sample finds and refines them."""
+    criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 30, 0.01)
+    return [
+        [
+            cv2.cornerSubPix(picture, cv2.findChessboardCorners(picture, (9, 6))[1], (11, 11), (-1, -1), criteria)
+            for picture in pictures_of(name)
+        ]
+        for name in ("left", "right")
+    ]
+
+
+def opencvs_error(board: Checkerboard, corners: Corners) -> float:
+    """Lens by lens, then both as a pair, by OpenCV."""
+    points = [board.points.astype(np.float32)] * len(corners[0])
+    lenses = [cv2.calibrateCamera(points, seen, (640, 480), None, None, flags=cv2.CALIB_FIX_K3) for seen in corners]
+    (_, k1, d1, *_), (_, k2, d2, *_) = lenses
+    return float(cv2.stereoCalibrate(points, *corners, k1, d1, k2, d2, (640, 480), flags=cv2.CALIB_FIX_K3)[0])
+
+
+def test_a_page_and_its_description_are_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert calibrate.main(["target", "--out", str(tmp_path / "target.pdf"), "--columns", "4", "--rows", "5"]) == 0
+    assert (tmp_path / "target.pdf").read_bytes().startswith(b"%PDF-1.4")
+    assert "tagCols: 4" in (tmp_path / "target.yaml").read_text()
+    assert "100 %" in capsys.readouterr().out
+
+
+def test_bad_input_is_answered_with_a_sentence(recording: Path, tmp_path: Path, run: Run) -> None:
+    target = ("--target", recording / "target.yaml", "--out", tmp_path / "out")
+    (tmp_path / "empty").mkdir()
+    assert "is not a folder" in refused(run("cameras", tmp_path / "missing", *target))
+    assert "has no pictures" in refused(run("cameras", tmp_path / "empty", *target))
+    assert "can not be read as Kalibr's target" in refused(run("cameras", recording, "--target", tmp_path / "no.yaml"))
+    blank = tmp_path / "blank"
+    blank.mkdir()
+    for k in range(3):
+        cv2.imwrite(str(blank / f"left{k}.png"), np.full((120, 160), 90, dtype=np.uint8))
+    assert "the right eye is missing" in refused(run("cameras", blank, *target))
+    for k in range(3):
+        cv2.imwrite(str(blank / f"right{k}.png"), np.full((120, 160), 90, dtype=np.uint8))
+    assert "no target found in any of the 3 pictures" in refused(run("cameras", blank, *target))
+    cv2.imwrite(str(blank / "left2.png"), np.full((100, 160), 90, dtype=np.uint8))
+    assert "is 160 x 100 px, the pictures before it 160 x 120" in refused(run("cameras", blank, *target))
+    (blank / "left2.png").write_text("no picture")
+    assert "can not be read as a picture" in refused(run("cameras", blank, *target))
+
+
+def test_what_an_imu_recording_lacks_is_named(recording: Path, truth: RigTruth, tmp_path: Path, run: Run) -> None:
+    files = ("--imu", recording / "imu.yaml", "--target", recording / "target.yaml", "--out", tmp_path / "out")
+    still = tmp_path / "still"
+    shutil.copytree(recording / "mav0", still / "mav0", ignore=shutil.ignore_patterns("imu0"))
+    assert "no imu0/data.csv" in refused(run("imu", still, "--cameras", recording / "truth.yaml", *files))
+    one = Rig(
+        models=truth.rig.models[:1],
+        intrinsics=truth.rig.intrinsics[:1],
+        eye_from_first=truth.rig.eye_from_first[:1],
+        sizes=truth.rig.sizes[:1],
+    )
+    write_camchain(one, tmp_path / "one.yaml")
+    assert "has 1 cameras" in refused(run("imu", recording, "--cameras", tmp_path / "one.yaml", *files))
+    larger = Rig(
+        models=truth.rig.models,
+        intrinsics=truth.rig.intrinsics,
+        eye_from_first=truth.rig.eye_from_first,
+        sizes=((640, 480), (640, 480)),
+    )
+    write_camchain(larger, tmp_path / "larger.yaml")
+    assert "640 x 480 px, the pictures 320 x 240" in refused(
+        run("imu", recording, "--cameras", tmp_path / "larger.yaml", *files)
+    )
+
+
+def refused(answer: tuple[int, dict[str, object], str]) -> str:
+    """The one sentence of a refusal."""
+    code, report, sentence = answer
+    assert (code, report) == (2, {})
+    assert len(sentence.strip().splitlines()) == 1
+    return sentence
