@@ -19,6 +19,7 @@ from robot_agent.calibration.looking import look
 from robot_agent.calibration.pictures import open_pictures
 from robot_agent.calibration.report import camera_sections, write_report
 from robot_agent.calibration.rig_batch import RigEstimate
+from robot_agent.calibration.robot_camera import camera_table
 from robot_agent.calibration.sightings import Session
 from robot_agent.calibration.target import Target
 from robot_agent.calibration.verdicts import Verdict, judge_cameras
@@ -36,6 +37,8 @@ def run(options: argparse.Namespace) -> int:
     verdict = judge_cameras(estimate, wished)
     folder = output_folder(options)
     write_camchain(estimate.rig, folder / "camchain.yaml")
+    if estimate.rig.eyes > 1:
+        (folder / "camera.toml").write_text(camera_table(estimate.rig), encoding="utf-8")
     write_report("Calibration of the cameras", verdict, camera_sections(estimate, session, wished), folder)
     if options.json:
         print(json.dumps(as_json(estimate, session, verdict)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,12 +13,11 @@ import numpy as np
 import pytest
 from target_scenes import GRID, IMU
 
-from robot_agent.calibration.chessboard_detector import ChessboardDetector
 from robot_agent.calibration.kalibr_files import write_camchain, write_imu, write_target
 from robot_agent.calibration.rig import Rig
-from robot_agent.calibration.target import Checkerboard
 from robot_agent.command_line import calibrate
 from robot_agent.vision.camchain import read_chain
+from sim_agent.command_line import study_calibration
 from sim_agent.targets.motion import HandHeldMotion
 from sim_agent.targets.recording import RigTruth, TargetRecording, draw_rig
 from weaver_shared.command_line import main
@@ -81,6 +81,9 @@ def test_cameras_of_a_recording(recording: Path, truth: RigTruth, tmp_path: Path
     markdown = (tmp_path / "report.md").read_text()
     assert markdown.startswith("# Calibration of the cameras\n**Usable")
     assert (tmp_path / "report.html").read_text().count("<svg") == 5
+    camera = tomllib.loads((tmp_path / "camera.toml").read_text())["camera"]
+    assert (camera["width"], camera["height"]) == SIZE
+    assert camera["baseline"] == pytest.approx(report["baseline_m"], abs=1e-6)
 
 
 def test_camera_and_imu_of_a_recording(recording: Path, truth: RigTruth, tmp_path: Path, run: Run) -> None:
@@ -122,49 +125,16 @@ def test_a_true_file_holds_and_a_bent_one_does_not(recording: Path, truth: RigTr
     assert report["size_ratio"] == pytest.approx(1.02, abs=0.01)
 
 
-def test_real_chessboards_are_as_near_as_opencvs_own(tmp_path: Path, run: Run) -> None:
+def test_real_chessboards_are_as_near_as_opencvs_own(capsys: pytest.CaptureFixture[str]) -> None:
     if not BOARDS.is_dir():
         pytest.skip(f"needs the shared data in {BOARDS}")
-    board = Checkerboard(columns=9, rows=6, column_spacing=0.025, row_spacing=0.025)
-    write_target(board, tmp_path / "target.yaml")
-    code, report, _ = run("cameras", BOARDS, "--target", tmp_path / "target.yaml", "--out", tmp_path / "out")
-    assert (code, report["views"]) == (0, 13)
-    assert report["reprojection_px"] == pytest.approx(opencvs_error(board, our_corners(board)), rel=0.05)
-    assert report["reprojection_px"] < opencvs_error(board, samples_corners())
-    assert report["baseline_m"] == pytest.approx(0.0832, abs=3e-4)
-
-
-Corners = list[list[np.ndarray]]
-
-
-def pictures_of(name: str) -> list[np.ndarray]:
-    return [cv2.imread(str(path), cv2.IMREAD_GRAYSCALE) for path in sorted(BOARDS.glob(f"{name}??.jpg"))]
-
-
-def our_corners(board: Checkerboard) -> Corners:
-    detector = ChessboardDetector(board)
-    found = [[detector.detect(picture) for picture in pictures_of(name)] for name in ("left", "right")]
-    return [[sighting.pixels.astype(np.float32) for sighting in eye if sighting is not None] for eye in found]
-
-
-def samples_corners() -> Corners:
-    """As OpenCV's stereo sample finds and refines them."""
-    criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 30, 0.01)
-    return [
-        [
-            cv2.cornerSubPix(picture, cv2.findChessboardCorners(picture, (9, 6))[1], (11, 11), (-1, -1), criteria)
-            for picture in pictures_of(name)
-        ]
-        for name in ("left", "right")
-    ]
-
-
-def opencvs_error(board: Checkerboard, corners: Corners) -> float:
-    """Lens by lens, then both as a pair, by OpenCV."""
-    points = [board.points.astype(np.float32)] * len(corners[0])
-    lenses = [cv2.calibrateCamera(points, seen, (640, 480), None, None, flags=cv2.CALIB_FIX_K3) for seen in corners]
-    (_, k1, d1, *_), (_, k2, d2, *_) = lenses
-    return float(cv2.stereoCalibrate(points, *corners, k1, d1, k2, d2, (640, 480), flags=cv2.CALIB_FIX_K3)[0])
+    assert study_calibration.main(["--runs", "0", "--boards", str(BOARDS), "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    boards = report["boards"]
+    assert boards["pairs"] == 13
+    assert boards["reprojection_px"] == pytest.approx(boards["opencv_px"], rel=0.05)
+    assert boards["baseline_m"] == pytest.approx(boards["opencv_baseline_m"], abs=1e-4)
+    assert report["goals_met"]
 
 
 def test_a_page_and_its_description_are_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
