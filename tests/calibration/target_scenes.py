@@ -9,6 +9,7 @@ import numpy as np
 from robot_agent.calibration.rig import Rig
 from robot_agent.calibration.sightings import Session, Sighting, View
 from robot_agent.calibration.target import AprilGrid
+from robot_agent.vision.camera import Distortion
 from robot_agent.vision.distortion import project
 from sim_agent.targets.motion import HandHeldMotion, inertia_along
 from sim_agent.targets.recording import RigTruth, draw_rig
@@ -39,20 +40,25 @@ def made_up(
     seconds: float,
     noise: float = 0.05,
     axes: tuple[float, float, float, float, float, float] = (1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
-    grid: AprilGrid = GRID,
+    model: Distortion = "radtan",
+    with_imu: bool = True,
 ) -> Scene:
-    truth = draw_rig(generator, "radtan", SIZE)
+    truth = draw_rig(generator, model, SIZE)
     motion = HandHeldMotion(GRID, 0.55, generator, axes)
     views = []
     for time in np.arange(0.2, seconds, 0.05):
         camera_from_target = motion.target_from_camera(float(time)).inverse()
         eyes = tuple(
-            sighting(truth.rig, eye, (place @ camera_from_target).transform(grid.points), noise, generator)
+            sighting(truth.rig, eye, (place @ camera_from_target).transform(GRID.points), noise, generator)
             for eye, place in enumerate(truth.rig.eye_from_first)
         )
         views.append(View(stamp_ns=round((time - truth.time_offset) * 1e9), eyes=eyes))
     times = np.arange(0.0, seconds + 0.2, 1.0 / IMU.rate)
-    inertia = inertia_along(motion, truth.camera_from_imu, times, truth.gravity_in_target, IMU, truth.biases, generator)
+    inertia = (
+        inertia_along(motion, truth.camera_from_imu, times, truth.gravity_in_target, IMU, truth.biases, generator)
+        if with_imu
+        else ImuBatch.empty()
+    )
     return Scene(truth=truth, views=tuple(view for view in views if view.seen), inertia=inertia)
 
 

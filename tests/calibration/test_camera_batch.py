@@ -7,7 +7,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 import pytest
-from target_scenes import GRID, Scene
+from target_scenes import GRID, Scene, made_up
 
 from robot_agent.calibration.camera_calibration import calibrate_cameras, spread_views
 from robot_agent.calibration.guidance import wishes
@@ -100,3 +100,13 @@ def test_a_long_recording_is_thinned_evenly(scene: Scene) -> None:
     stamps = [view.stamp_ns for view in chosen]
     assert stamps == sorted(stamps)
     assert max(np.diff(stamps)) < 4 * np.median(np.diff(stamps))
+
+
+def test_a_fisheye_comes_out_as_it_is() -> None:
+    fisheye = made_up(np.random.default_rng(8), seconds=5.0, model="equidistant", with_imu=False)
+    views = tuple(replace(view, eyes=view.eyes[:1]) for view in fisheye.views[::4] if view.eyes[0] is not None)
+    truth = fisheye.truth.rig
+    estimate = calibrate_cameras(Session(views=views, sizes=truth.sizes[:1], pictures=len(views)), GRID, "equidistant")
+    assert np.abs(estimate.rig.intrinsics[0, :2] / truth.intrinsics[0, :2] - 1.0).max() < 0.002
+    assert np.abs(estimate.rig.intrinsics[0, 2:4] - truth.intrinsics[0, 2:4]).max() < 0.5
+    assert estimate.sigma == pytest.approx(0.05, rel=0.1)
