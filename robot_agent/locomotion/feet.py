@@ -97,7 +97,7 @@ def lift(walk: Record, leg: int) -> None:
         feet.lift_off[leg, k] = feet.place[leg, k]
     offset[leg, 0], offset[leg, 1] = 0.0, 0.0
     feet.mode[leg] = SWING
-    feet.swing_height[leg] = walk.gait.height
+    feet.swing_height[leg] = min(walk.gait.height, walk.model.headroom[leg])
     feet.lifted[leg] = True
     feet.reached[leg] = 0.0
 

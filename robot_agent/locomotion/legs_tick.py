@@ -13,11 +13,10 @@ from robot_agent.locomotion.gait_parameters import follow_parameters
 from robot_agent.locomotion.reasons import SERVO_SPEED
 from robot_agent.locomotion.senses import measure, sense
 from robot_agent.locomotion.servo_lead import target_servos
+from robot_agent.locomotion.servo_pace import demanded_speed, learn_demand
 from robot_agent.locomotion.stability import static_margin
 from robot_agent.locomotion.stepper import step
 from robot_agent.locomotion.walk_state import Array, Record
-
-SLOWEST_PACE = 0.1
 
 
 @kernel
@@ -182,26 +181,18 @@ def reach_feet(walk: Record) -> None:
 @kernel
 def follow_angles(walk: Record, lead: bool) -> None:
     """Keep the speed limits, legs on the ground together, and pass the angles on to the servos."""
-    model, joint, legs = walk.model, walk.joint, walk.model.legs
-    together = np.empty(legs, dtype=np.bool_)
-    for leg in range(legs):
-        together[leg] = walk.feet.mode[leg] == STAND
-    speed = model.speed_limit[: model.joints]
-    factor = limit_joint_speed(joint.previous, joint.wanted, speed, together, model.dt)
-    if factor < 1.0:
-        walk.gait.pace = min(walk.gait.pace, max(factor, SLOWEST_PACE))  # the gait takes its time
-    if factor < 1.0 or at_largest_speed(walk):
+    demanded = demanded_speed(walk)
+    if walk.gait.walking:
+        learn_demand(walk, demanded)
+    if demanded >= 1.0 - 1e-9:
         walk.answer.reasons |= SERVO_SPEED
+        _shorten(walk)
     target_servos(walk, lead)
 
 
 @kernel
-def at_largest_speed(walk: Record) -> bool:
-    """Whether any joint turns as fast as it may: a swinging leg then lags behind its path."""
-    model, joint = walk.model, walk.joint
+def _shorten(walk: Record) -> None:
+    model, joint, together = walk.model, walk.joint, np.empty(walk.model.legs, dtype=np.bool_)
     for leg in range(model.legs):
-        for i in range(model.joints):
-            step = abs(joint.wanted[leg, i] - joint.previous[leg, i])
-            if step > (1.0 - 1e-9) * model.speed_limit[i] * model.dt:
-                return True
-    return False
+        together[leg] = walk.feet.mode[leg] == STAND
+    limit_joint_speed(joint.previous, joint.wanted, model.speed_limit[: model.joints], together, model.dt)

@@ -22,7 +22,8 @@ from robot_agent.locomotion.gait_clock import advance_clock, restart_clock
 from robot_agent.locomotion.gait_start import best_start, overrun
 from robot_agent.locomotion.impedance import give_way
 from robot_agent.locomotion.load import carry_load
-from robot_agent.locomotion.reasons import LEFT_BEHIND, NO_GROUND
+from robot_agent.locomotion.reasons import LEFT_BEHIND, NO_GROUND, SLOW_SERVOS
+from robot_agent.locomotion.servo_pace import forget_demand, pace_of_moment, pace_of_stride
 from robot_agent.locomotion.walk_state import Array, Record
 
 PACE_TIME = 0.12
@@ -31,6 +32,8 @@ BRAKING_STRIDE = 0.05
 """Fraction of a stride before the next lift-off at which a waiting gait begins to slow."""
 FREE_OVERRUN, LARGEST_OVERRUN = 1.2, 1.5
 """In half strides: where a foot left too far behind begins to slow the body, and where it stops it."""
+SLOWNESS_TOLD = 0.02
+"""Of the pace, lost to slow servos, from where on it is said."""
 STOP_SLEW = 1.0
 """m/s^2 towards an end of the walk that a missed lift-off makes necessary."""
 
@@ -107,6 +110,7 @@ def begin_to_walk(walk: Record) -> None:
         feet.lifted[leg] = phase < 1.0 - gait.duty and not at_lift_off
     gait.walking, gait.skipped, gait.halted = True, False, False
     gait.pace, gait.waited = 1.0, 0.0
+    forget_demand(walk)
 
 
 @kernel
@@ -115,9 +119,7 @@ def advance(walk: Record) -> None:
     gait, dt = walk.gait, walk.model.dt
     until_lift = until_next_lift(walk)
     reaching = count_mode(walk, REACH) > 0
-    target = min(max(until_lift / BRAKING_STRIDE, 0.0), 1.0) if reaching else 1.0
-    change = dt / PACE_TIME
-    gait.pace += min(max(target - gait.pace, -change), change)
+    follow_pace(walk, min(max(until_lift / BRAKING_STRIDE, 0.0), 1.0) if reaching else 1.0)
     strides = gait.frequency * dt * gait.pace
     if reaching and strides >= until_lift - 1e-4:
         strides = 0.0
@@ -129,6 +131,20 @@ def advance(walk: Record) -> None:
         gait.waited = 0.0
     advance_clock(walk, strides)
     lift_feet(walk)
+
+
+@kernel
+def follow_pace(walk: Record, target: float) -> None:
+    """Bring the pace nearer to its target, but never beyond what the servos can follow."""
+    gait, change = walk.gait, walk.model.dt / PACE_TIME
+    if not walk.settings.spare_servos:
+        gait.pace += min(max(target - gait.pace, -change), change)
+        return
+    most = pace_of_stride(walk)
+    if most < 1.0 - SLOWNESS_TOLD:
+        walk.answer.reasons |= SLOW_SERVOS
+    gait.pace += min(max(min(target, most) - gait.pace, -change), change)
+    gait.pace = min(gait.pace, pace_of_moment(walk))
 
 
 @kernel

@@ -19,7 +19,7 @@ Array = NDArray[Any]
 Record = Any
 """A part of the walker's memory inside a kernel: its fields are attributes."""
 
-LEGS, JOINTS, BEARINGS = 8, 6, 36
+LEGS, JOINTS, BEARINGS, LAYERS, PEAKS = 8, 6, 36, 3, 16
 F, N = np.float64, np.int64
 
 MODEL = np.dtype(
@@ -41,7 +41,9 @@ MODEL = np.dtype(
         ("weight", F),  # N of the whole robot
         ("stance", F, (LEGS, 3)),  # m in body, middle of every foot's stance
         ("foot_depth", F),  # m of the stance under the body's origin
-        ("radius", F, (LEGS, BEARINGS)),  # m reachable about the stance
+        ("radius", F, (LEGS, BEARINGS)),  # m of every leg's walkspace about its stance
+        ("headroom", F, (LEGS,)),  # m that a foot can be lifted from its stance
+        ("layers", F, (LAYERS,)),  # m above the stance, of the ground on which to walk
         ("down_limit", F),  # m, z in body between which footholds stay
         ("up_limit", F),
         ("dt", F),  # s, a tick
@@ -117,10 +119,26 @@ GAIT = np.dtype(
         ("halted", N),  # no foot lifts any more
         ("skipped", N),  # a foot has missed its lift-off, so the walk has to end before it goes on
         ("waited", F),  # s for a foot without ground
-        ("pace", F),  # 1, less where the gait has to wait
+        ("pace", F),  # 1, less where the gait has to wait or the servos are too slow
+        ("demand", F),  # fraction of its limit that the fastest joint needs at full pace, low-passed
+        ("peaks", F, (PEAKS,)),  # the largest of it in every stretch of the last stride
+        ("stretch", N),  # of the stride, under way
+        ("freshest_peak", F),  # of that stretch
+        ("fastest", F),  # m/s, the largest speed at which the servos keep up
         ("limited", F, (3,)),  # the ordered velocity within the limits
         ("commanded", F, (3,)),  # after slewing
         ("velocity", F, (3,)),  # the same at the gait's present pace
+    ]
+)
+
+SPACE = np.dtype(
+    [
+        ("reach", F, (LEGS, LAYERS, BEARINGS)),  # m, workspace about the stance at several heights
+        ("middle", F, (LEGS, 3)),  # m in the posed body, the stance for which it holds
+        ("moved", F, (LEGS,)),  # m from there to the stance of now
+        ("leg", N),  # being renewed, -1 if none is
+        ("ray", N),  # the next one
+        ("begun", F, (3,)),  # m, its stance
     ]
 )
 
@@ -240,6 +258,7 @@ WALK = np.dtype(
         ("senses", SENSES),
         ("feet", FEET),
         ("gait", GAIT),
+        ("space", SPACE),
         ("body", BODY),
         ("load", LOAD),
         ("posing", POSING),

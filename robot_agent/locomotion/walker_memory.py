@@ -6,7 +6,8 @@ import numpy as np
 
 from robot_agent.kinematics import LegModel
 from robot_agent.locomotion.walk_state import WalkState, write
-from robot_agent.locomotion.workspace import reachable_radius
+from robot_agent.locomotion.walkspace import fill_walkspace
+from robot_agent.locomotion.workspace import headroom, workspace
 from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.frames import GRAVITY
 from weaver_shared.robots import RobotDescription
@@ -28,9 +29,9 @@ def walker_memory(robot: RobotDescription, model: LegModel, config: LocomotionCo
     record["dt"] = dt
     record["force_blend"] = 1.0 - np.exp(-dt / config.admittance.force_time)
     record["plane_blend"] = 1.0 - np.exp(-dt / config.posture.plane_time)
-    state.cut("model", "radius")[:] = reachable_radius(
-        model, stance, model.reach * np.array(GROUND_HEIGHTS), 0.5 * config.largest_stride + SPARE * model.reach
-    )
+    record["layers"] = model.reach * np.array(GROUND_HEIGHTS)
+    record["headroom"][: model.leg_count] = headroom(model, stance, config.height_bounds[1])
+    _write_space(state, model, 0.5 * config.largest_stride + SPARE * model.reach)
     record["servo_lag"][: model.joints_per_leg] += dt  # the bus brings a target one tick later
     record["target_step"][: model.joints_per_leg] = [robot.servos[j.servo].no_load_speed * dt for j in robot.joints]
     record["foot_depth"] = -stance[:, 2].mean()
@@ -41,8 +42,20 @@ def walker_memory(robot: RobotDescription, model: LegModel, config: LocomotionCo
     gait = state.record["gait"]
     gait["frequency"] = config.frequency_bounds[1]
     gait["height"] = config.height_bounds[0]
+    gait["fastest"] = config.largest_speed
     gait["stiffness"] = config.admittance.stiffness_bounds[1]
     return state
+
+
+def _write_space(state: WalkState, model: LegModel, largest: float) -> None:
+    """Workspaces and walkspaces about the stances."""
+    record, stance = state.record["space"], state.cut("model", "stance")
+    state.cut("space", "reach")[:] = workspace(model, stance, state.record["model"]["layers"], largest)
+    state.cut("space", "middle")[:] = stance
+    record["leg"] = -1
+    overlapping = bool(state.record["settings"]["overlapping_walkspaces"])
+    for leg, radius in enumerate(state.cut("model", "radius")):
+        fill_walkspace(state.cut("space", "reach")[leg], stance, leg, overlapping, radius)
 
 
 def _write_model(state: WalkState, robot: RobotDescription, model: LegModel) -> None:

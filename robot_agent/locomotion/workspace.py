@@ -1,4 +1,7 @@
-"""How far a foot may travel about its stance, in every direction, over the range of ground heights."""
+"""Where a leg can put its foot: how far from its stance, in every direction, at several heights of the ground.
+
+A ray ends where the joints are at their limits, and before a leg is so nearly stretched that its foot becomes slow.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,98 +13,120 @@ from robot_agent.kinematics.inverse import solve_leg
 Array = NDArray[np.float64]
 
 BEARINGS = 36
+"""Bearing i is 360 i / BEARINGS degrees from the body's x axis."""
 RADIUS_STEP = 0.012
 """Of the leg's length."""
+HALVINGS = 4
+"""Of the last step, the one that was not reached any more."""
 REACHED = 0.003
 """Distance left, of the leg's length, at which a place counts as reached."""
 LIMIT_MARGIN = 0.05
 """rad kept from every joint limit."""
+USED = 0.9
+"""Of the reach; beyond, legs are nearly stretched and their feet slow."""
+LARGEST_TURN = 0.5
+"""rad of a joint in one step; more means that the joints change over to another posture."""
 
 
-def reachable_radius(model: LegModel, stance_in_body: Array, heights: Array, largest: float) -> Array:
-    """Radius (legs, BEARINGS), m, within which a foot is reachable at all `heights` (m above the stance).
+def workspace(model: LegModel, stance_in_body: Array, heights: Array, largest: float) -> Array:
+    """Radius (legs, heights, BEARINGS), m, up to which a foot is within reach, `largest` at most.
 
-    Bearing i is 360 i / BEARINGS degrees from the body's x axis. The radius is the smaller of a bearing and its
-    opposite, since a stride is centred on the stance.
+    `stance_in_body` (legs, 3) is the middle, `heights` (m) are above it.
     """
-    limits = model.limits_less(LIMIT_MARGIN)
-    radius = np.zeros((model.leg_count, BEARINGS))
+    radius = np.zeros((model.leg_count, len(heights), BEARINGS))
     _fill(
         model.dh,
-        limits,
+        model.limits_less(LIMIT_MARGIN),
         model.closed_form,
         model.hips,
         model.hip_axes,
-        stance_in_body,
-        heights,
+        np.asarray(stance_in_body, dtype=np.float64),
+        np.asarray(heights, dtype=np.float64),
         largest,
         model.standing,
         radius,
     )
-    opposite: Array = np.minimum(radius, np.roll(radius, BEARINGS // 2, axis=1))
-    return opposite
+    return radius
+
+
+def headroom(model: LegModel, stance_in_body: Array, largest: float) -> Array:
+    """Height (legs,), m, up to which every foot can be lifted from its stance, `largest` at most."""
+    height = np.zeros(model.leg_count)
+    _rise(
+        model.dh,
+        model.limits_less(LIMIT_MARGIN),
+        model.closed_form,
+        model.hips,
+        model.hip_axes,
+        np.asarray(stance_in_body, dtype=np.float64),
+        largest,
+        model.standing,
+        height,
+    )
+    return height
 
 
 @kernel
 def _fill(
-    dh: Array,
-    limits: Array,
-    closed_form: int,
-    hips: Array,
-    hip_axes: Array,
-    stance: Array,
-    heights: Array,
-    largest: float,
-    standing: Array,
-    radius: Array,
-) -> None:
-    n = dh.shape[0]
-    down = np.array([0.0, 0.0, -1.0])
-    joints, guess, foot = np.zeros(n), np.zeros(n), np.zeros(3)
-    reach = np.abs(dh[:, 1:3]).sum()
-    step = RADIUS_STEP * reach
+    dh: Array, limits: Array, closed_form: int, hips: Array, hip_axes: Array, stance: Array, heights: Array,
+    largest: float, standing: Array, radius: Array,
+) -> None:  # fmt: skip
+    begin, along = np.empty(3), np.zeros(3)
     for leg in range(hips.shape[0]):
-        for bearing in range(radius.shape[1]):
-            angle = 2.0 * np.pi * bearing / radius.shape[1]
-            reached = largest
-            for height in heights:
-                for i in range(n):
-                    guess[i] = standing[i]
-                far = 0.0
-                while far < reached:
-                    foot[0] = stance[leg, 0] + (far + step) * np.cos(angle)
-                    foot[1] = stance[leg, 1] + (far + step) * np.sin(angle)
-                    foot[2] = stance[leg, 2] + height
-                    left = solve_leg(dh, limits, closed_form, hips[leg], hip_axes[leg], foot, down, guess, joints)
-                    if left > REACHED * reach:
-                        break
-                    guess[:] = joints
-                    far += step
-                reached = min(reached, far)
-            radius[leg, bearing] = reached
+        for layer in range(heights.size):
+            begin[:] = stance[leg]
+            begin[2] += heights[layer]
+            for bearing in range(radius.shape[2]):
+                angle = 2.0 * np.pi * bearing / radius.shape[2]
+                along[0], along[1] = np.cos(angle), np.sin(angle)
+                radius[leg, layer, bearing] = length_of_ray(
+                    dh, limits, closed_form, hips[leg], hip_axes[leg], begin, along, largest, standing
+                )
 
 
 @kernel
-def radius_towards(radius: Array, x: float, y: float) -> float:
-    """Radius of one leg (BEARINGS,) in the direction (x, y), linear between bearings."""
-    place = np.arctan2(y, x) / (2.0 * np.pi) * radius.size
-    lower = np.floor(place)
-    share = place - lower
-    first = int(lower) % radius.size
-    towards: float = (1.0 - share) * radius[first] + share * radius[(first + 1) % radius.size]
-    return towards
+def _rise(
+    dh: Array, limits: Array, closed_form: int, hips: Array, hip_axes: Array, stance: Array, largest: float,
+    standing: Array, height: Array,
+) -> None:  # fmt: skip
+    up = np.array([0.0, 0.0, 1.0])
+    for leg in range(hips.shape[0]):
+        height[leg] = length_of_ray(
+            dh, limits, closed_form, hips[leg], hip_axes[leg], stance[leg], up, largest, standing
+        )
 
 
 @kernel
-def velocity_scale(
-    velocity: Array, stance: Array, radius: Array, duty: float, frequency: float, largest_stride: float
-) -> float:
-    """Largest factor, at most 1, by which `velocity` (vx, vy, turn) keeps every leg's stride within its radius."""
-    scale = 1.0
-    for leg in range(stance.shape[0]):
-        x = velocity[0] - velocity[2] * stance[leg, 1]
-        y = velocity[1] + velocity[2] * stance[leg, 0]
-        half = 0.5 * np.sqrt(x * x + y * y) * duty / frequency
-        if half > 0.0:
-            scale = min(scale, min(radius_towards(radius[leg], x, y), 0.5 * largest_stride) / half)
-    return scale
+def length_of_ray(
+    dh: Array, limits: Array, closed_form: int, hip: Array, hip_axes: Array, begin: Array, along: Array,
+    largest: float, standing: Array,
+) -> float:  # fmt: skip
+    """How far, m, a foot can move from `begin` (3,) in body `along` a direction (3,)."""
+    n = dh.shape[0]
+    guess, joints, foot = standing.copy(), np.empty(n), np.empty(3)
+    down = np.array([0.0, 0.0, -1.0])
+    reach = np.abs(dh[:, 1:3]).sum()
+    step, far, halvings = RADIUS_STEP * reach, 0.0, 0
+    left = solve_leg(dh, limits, closed_form, hip, hip_axes, begin, down, guess, joints)
+    if left > REACHED * reach:
+        return 0.0
+    guess[:] = joints
+    while USED * far < largest and halvings <= HALVINGS:
+        for k in range(3):
+            foot[k] = begin[k] + (far + step) * along[k]
+        left = solve_leg(dh, limits, closed_form, hip, hip_axes, foot, down, guess, joints)
+        if left > REACHED * reach or turned(guess, joints) > LARGEST_TURN:
+            step, halvings = 0.5 * step, halvings + 1
+            continue
+        guess[:] = joints
+        far += step
+    return min(USED * far, largest)
+
+
+@kernel
+def turned(before: Array, after: Array) -> float:
+    """Largest turn of a joint, rad."""
+    most = 0.0
+    for i in range(before.size):
+        most = max(most, abs(after[i] - before[i]))
+    return most

@@ -157,6 +157,7 @@ class LocomotionConfig(BaseModel):
     posing: PosingConfig = PosingConfig()
     manipulation: ManipulationConfig = ManipulationConfig()
     footing: FootingConfig = FootingConfig()
+    overlapping_walkspaces: bool = False  # a foot may come nearer to another leg's stance than to its own
     largest_stride: Positive = 0.20  # paper: 0.35 m/s at 1 Hz
     largest_speed: Positive = 0.35  # m/s (paper)
     stop_time: Positive = 0.4  # s from the largest velocity to zero
@@ -174,4 +175,5 @@ class LocomotionConfig(BaseModel):
     sitting_lift: Positive = 0.004  # m, feet higher than the ground when sitting, so that the belly takes the weight
     speed_fraction: Fraction = 0.9  # of the servos' no-load speed
     feel_ground: bool = True  # False: feet touch down where and when planned; for trajectories without physics
+    spare_servos: bool = True  # the gait slows down where swinging legs would need more than their servos' speed
     compensate_servos: bool = True  # lead the servos by the sag and lag known from their data
