@@ -17,7 +17,9 @@ import numpy as np
 from robot_agent.adaptation import ParameterOverrides
 from robot_agent.authority import Authority
 from robot_agent.cruise import Cruise
+from robot_agent.foothold_desk import FootholdDesk
 from robot_agent.leg_desk import LegDesk
+from robot_agent.locomotion.leg_reach import LegReach
 from robot_agent.mission import Mission
 from robot_agent.motion_desk import MotionDesk
 from robot_agent.orders import Orders
@@ -34,6 +36,7 @@ from weaver_shared.messages import (
     TeleopFrame,
 )
 from weaver_shared.robots import RobotDescription
+from weaver_shared.transforms import Pose
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,6 +50,8 @@ class Situation:
     stand_blockers: tuple[str, ...]  # what keeps the robot from standing up
     lift_margins: tuple[float, ...] = ()  # m of stability without each leg, while the robot stands still
     change_refusal: str = "starting"  # why the posture of the legs can not be changed now
+    leg_reach: LegReach | None = None
+    world_from_body: Pose | None = None  # as estimated
 
 
 class CommandDesk:
@@ -68,6 +73,7 @@ class CommandDesk:
         self._motion = MotionDesk(robot)
         self._cruise = Cruise(self._limits)
         self._legs = LegDesk(robot, robot.locomotion)
+        self._footholds = FootholdDesk(robot)
         self._situation = Situation(
             stamp_ns=0, robot_xy=(0.0, 0.0), mode="OFF", settled=True, stand_blockers=("starting",)
         )
@@ -101,6 +107,7 @@ class CommandDesk:
             CommandName.LOWER_LEG: self._moving(self._legs.lower),
             CommandName.MOVE_TIP: self._moving(self._legs.move_tip),
             CommandName.MOVE_JOINT: self._moving(self._legs.move_joint),
+            CommandName.PLACE_FOOT: self._moving(self._place_foot),
             CommandName.SET_POSING: self._moving(self._motion.set_posing),
         }
 
@@ -142,6 +149,8 @@ class CommandDesk:
         with self._lock:
             self._situation = situation
             self._legs.lift_margins = situation.lift_margins
+            self._footholds.reach = situation.leg_reach
+            self._footholds.world_from_body = situation.world_from_body
 
     def orders(self) -> Orders:
         with self._lock:
@@ -163,6 +172,7 @@ class CommandDesk:
                 teleop_velocity=steered if steered is not None else self._cruise.velocity(self._situation.stamp_ns),
                 posing=self._motion.posing,
                 legs=self._legs.orders,
+                footholds=self._footholds.orders(self._situation.stamp_ns),
                 in_sequence=self._motion.in_sequence,
                 pack=self._motion.pack,
                 posture=self._motion.posture,
@@ -205,6 +215,7 @@ class CommandDesk:
             self._stand = False
             self._cruise.stop()
             self._legs.clear()
+            self._footholds.clear()
             self._mission.pause()
 
     def lease(self) -> LeaseState:
@@ -240,7 +251,9 @@ class CommandDesk:
                 names.add(CommandName.START_MISSION)
             if self._mission.phase == "active":
                 names.add(CommandName.PAUSE_MISSION)
-            elif mode in ("STAND", "WALK"):
+            if mode in ("STAND", "WALK"):
+                names.add(CommandName.PLACE_FOOT)
+            if self._mission.phase != "active" and mode in ("STAND", "WALK"):
                 names |= {CommandName.START_CRUISE, CommandName.STOP_CRUISE}
             if self._mission.phase != "empty":
                 names.add(CommandName.CLEAR_MISSION)
@@ -254,6 +267,7 @@ class CommandDesk:
     def _release_control(self, _: Command) -> Answer:
         self._authority.release()
         self._teleop = None
+        self._footholds.clear()
         self._cruise.stop()
         self._mission.pause()
         return self._accept()
@@ -265,6 +279,7 @@ class CommandDesk:
         self._teleop = None
         self._cruise.stop()
         self._legs.clear()
+        self._footholds.clear()
         self._mission.pause()
         return self._accept()
 
@@ -292,6 +307,7 @@ class CommandDesk:
         self._mission.pause()
         self._cruise.stop()
         self._legs.clear()
+        self._footholds.clear()
         self._stand = False
         return self._accept()
 
@@ -367,6 +383,11 @@ class CommandDesk:
         if self._situation.mode != "STAND":
             raise InputError(f"the posture is changed only while the robot stands; it is in {self._situation.mode}")
         return self._motion.change_posture(command, self._situation.change_refusal)
+
+    def _place_foot(self, command: Command) -> float:
+        if self._situation.mode not in ("STAND", "WALK"):
+            raise InputError(f"the robot must stand before a foot is placed; it is in {self._situation.mode}")
+        return self._footholds.place(command, self._situation.stamp_ns)
 
     def _stop_cruise(self, _: Command) -> Answer:
         self._cruise.stop()

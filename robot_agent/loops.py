@@ -127,6 +127,8 @@ class WalkLoop:
                 stand_blockers=tick.verdict.reasons if tick.permission.mode in ("OFF", "READY", "FAULT") else (),
                 lift_margins=tick.walk.lift_margins,
                 change_refusal=tick.walk.change_refusal,
+                leg_reach=self._pipeline.leg_reach,
+                world_from_body=tick.state.world_from_body,
             )
         )
         for text in tick.walk.events:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.locomotion.footholds import FootholdOrder
 from robot_agent.locomotion.leg_order import LegOrder
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from robot_agent.locomotion.posture_order import NO_POSTURE_ORDER, PostureOrder
@@ -26,6 +27,7 @@ class Orders:
     teleop_velocity: NDArray[np.float64] | None  # (3,) fractions -1..1 of the limits; None: nobody steers
     posing: PosingOrder = NO_POSING
     legs: tuple[LegOrder, ...] = ()  # in the operator's hands
+    footholds: tuple[FootholdOrder, ...] = ()  # where the next swings of single legs are to end
     in_sequence: bool = False  # stand up and sit down with legs in alternating groups
     pack: bool = False  # fold the legs away when sitting
     posture: PostureOrder = NO_POSTURE_ORDER  # of the legs

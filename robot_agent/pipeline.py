@@ -15,6 +15,8 @@ from robot_agent.adaptation import AdaptationController, ParameterOverrides
 from robot_agent.body import JointTargets
 from robot_agent.limits import JointGate
 from robot_agent.locomotion import Postures, WalkInput, WalkOutput
+from robot_agent.locomotion.footholds import orders_in_body
+from robot_agent.locomotion.leg_reach import LegReach
 from robot_agent.mapping import FirmFeet, TerrainMap
 from robot_agent.modes import ModeMachine, Permission
 from robot_agent.navigation import FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
@@ -186,6 +188,11 @@ class WalkPipeline:
         """Seconds since the vision loop was last heard."""
         return self._vigilance.odometry_age()
 
+    @property
+    def leg_reach(self) -> LegReach:
+        """Where the legs may put their feet; lives on with the walker."""
+        return self._walker.leg_reach
+
     def step(self, sensed: Proprioception, orders: Orders) -> WalkTick:
         state = self._navigate(sensed)
         verdict = self._safety.step(
@@ -209,6 +216,7 @@ class WalkPipeline:
                 gravity_in_body=state.gravity_in_body,
                 posing=orders.posing,
                 legs=orders.legs,
+                footholds=orders_in_body(orders.footholds, state.world_from_body) if orders.footholds else (),
                 in_sequence=orders.in_sequence,
                 pack=orders.pack,
                 posture_order=orders.posture,

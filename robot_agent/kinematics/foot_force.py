@@ -33,6 +33,36 @@ def link_gravity_torque(origins: Array, axes: Array, link_mass: Array, gravity_i
 
 
 @kernel
+def link_inertia_torque(origins: Array, axes: Array, link_mass: Array, acceleration: Array, torque: Array) -> None:
+    """Fill `torque` (n,) N m that turn a leg's joints with `acceleration` (n,) rad/s^2 against its links' inertia.
+
+    Links are points half-way between their joints; what grows with the square of the speed is left out.
+    """
+    n = axes.shape[0]
+    linear, lever, turn = np.empty(3), np.empty(3), np.empty(3)
+    torque[:n] = 0.0
+    for j in range(n):
+        linear[:] = 0.0
+        for i in range(j + 1):
+            _move_by(origins, axes, i, j, lever, turn)
+            for k in range(3):
+                linear[k] += turn[k] * acceleration[i]
+        for i in range(j + 1):
+            _move_by(origins, axes, i, j, lever, turn)
+            torque[i] += link_mass[j] * (turn[0] * linear[0] + turn[1] * linear[1] + turn[2] * linear[2])
+
+
+@kernel
+def _move_by(origins: Array, axes: Array, joint: int, link: int, lever: Array, move: Array) -> None:
+    """Fill `move` (3,) m/rad, how a link's middle moves with a joint; `lever` (3,) is from the one to the other."""
+    for k in range(3):
+        lever[k] = 0.5 * (origins[link, k] + origins[link + 1, k]) - origins[joint, k]
+    move[0] = axes[joint, 1] * lever[2] - axes[joint, 2] * lever[1]
+    move[1] = axes[joint, 2] * lever[0] - axes[joint, 0] * lever[2]
+    move[2] = axes[joint, 0] * lever[1] - axes[joint, 1] * lever[0]
+
+
+@kernel
 def foot_force(jacobian: Array, joint_torque: Array, own_torque: Array, force: Array) -> None:
     """Fill `force` (3,) N in body, ground on foot, from the servo torques (n,) N m of a leg.
 

@@ -39,7 +39,8 @@ def keep_within_walkspace(walk: Record, wanted: Array) -> None:
     share, time_left = 1.0, np.zeros(legs)
     if gait.walking and speed_of(wanted) > speed_of(gait.commanded):
         for leg in range(legs):
-            if walk.feet.mode[leg] == STAND and not walk.feet.lifted[leg]:
+            lifts_now = gait.leg_phase[leg] < 1.0 - gait.duty and not walk.feet.lifted[leg]
+            if walk.feet.mode[leg] == STAND and not lifts_now:
                 time_left[leg] = (1.0 - gait.leg_phase[leg]) / gait.frequency
         share = _affordable(walk, wanted, time_left)
     for k in range(3):

@@ -7,8 +7,10 @@ down, up to a limit, while the gait waits. All places are in the body as it woul
 import numpy as np
 
 from robot_agent.kinematics.compiled import kernel
+from robot_agent.locomotion.reasons import FOOTHOLD
 from robot_agent.locomotion.stride import foot_velocity, stride_of, swing_nodes, swing_point
 from robot_agent.locomotion.walk_state import Array, Record
+from robot_agent.locomotion.walkspace import radius_towards
 
 STAND, SWING, REACH, HANG, HELD = 0, 1, 2, 3, 4
 """HANG: reached as far as it may without finding ground; carries nothing until its next swing.
@@ -98,6 +100,7 @@ def lift(walk: Record, leg: int) -> None:
     offset[leg, 0], offset[leg, 1] = 0.0, 0.0
     feet.mode[leg] = SWING
     feet.swing_height[leg] = min(walk.gait.height, walk.model.headroom[leg])
+    feet.aimed[leg] = walk.orders.targeted[leg]
     feet.lifted[leg] = True
     feet.reached[leg] = 0.0
 
@@ -129,33 +132,62 @@ def move_swinging(walk: Record) -> None:
 def _swing(walk: Record, leg: int, progress: float) -> None:
     """Along the swing curves towards the foothold; without a sense of ground the foot lands when the swing ends."""
     feet, gait, model, plane = walk.feet, walk.gait, walk.model, walk.body.plane
-    foothold, ground, stride = np.empty(3), np.empty(3), np.empty(3)
+    foothold, ground, stride, up = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
     foot_velocity(gait.commanded, feet.stance[leg], ground)
     stride_of(gait.commanded, feet.stance[leg], gait.duty, gait.frequency, stride)
     for k in range(2):
         foothold[k] = feet.stance[leg, k] + 0.5 * stride[k]
     z = plane[0] * foothold[0] + plane[1] * foothold[1] + plane[2]
     foothold[2] = min(max(z, model.down_limit), model.up_limit)
+    if feet.aimed[leg]:
+        aim(walk, leg, foothold)
     half_time = 0.5 * (1.0 - gait.duty) / gait.frequency
     if progress >= 1.0:
         for k in range(3):
             feet.place[leg, k] = foothold[k] + ground[k] * (progress - 1.0) * 2.0 * half_time
         feet.mode[leg] = STAND
         return
-    first, second = np.empty((5, 3)), np.empty((5, 3))
+    first, second, outward = np.empty((5, 3)), np.empty((5, 3)), np.zeros(3)
+    direction_of_swing(walk, up)
+    outward[1] = walk.settings.foothold.swing_width * (1.0 if feet.stance[leg, 1] > 0.0 else -1.0)
     speed = walk.settings.foothold.touchdown_speed if walk.settings.feel_ground else 0.0
     swing_nodes(
-        feet.lift_off[leg], foothold, walk.senses.unposed_up, feet.swing_height[leg], ground, speed, half_time,
-        first, second,
+        feet.lift_off[leg], foothold, up, feet.swing_height[leg], ground, speed, half_time,
+        walk.settings.foothold.along_normal != 0, outward, first, second,
     )  # fmt: skip
     swing_point(progress, first, second, feet.place[leg])
+
+
+@kernel
+def aim(walk: Record, leg: int, foothold: Array) -> None:
+    """The place that was ordered, or the nearest to it that the leg can walk on."""
+    target, stance, model = walk.orders.target[leg], walk.feet.stance[leg], walk.model
+    x, y = target[0] - stance[0], target[1] - stance[1]
+    far, share = np.sqrt(x * x + y * y), 1.0
+    room = max(radius_towards(model.radius[leg], x, y) - walk.space.moved[leg], 0.0)
+    if far > room:
+        share = room / far
+        walk.answer.reasons |= FOOTHOLD
+    foothold[0], foothold[1] = stance[0] + share * x, stance[1] + share * y
+    foothold[2] = min(max(target[2], model.down_limit), model.up_limit)
+
+
+@kernel
+def direction_of_swing(walk: Record, up: Array) -> None:
+    """Fill `up` (3,) with the direction in which feet are lifted and put down: against gravity, or off the ground."""
+    up[:] = walk.senses.unposed_up
+    if walk.settings.foothold.along_normal:
+        plane = walk.body.plane
+        length = np.sqrt(plane[0] ** 2 + plane[1] ** 2 + 1.0)
+        up[0], up[1], up[2] = -plane[0] / length, -plane[1] / length, 1.0 / length
 
 
 @kernel
 def _reach(walk: Record, leg: int) -> None:
     """On down, below the expected ground."""
     feet, gait, settings, dt = walk.feet, walk.gait, walk.settings.foothold, walk.model.dt
-    up, ground = walk.senses.unposed_up, np.empty(3)
+    up, ground = np.empty(3), np.empty(3)
+    direction_of_swing(walk, up)
     foot_velocity(gait.commanded, feet.stance[leg], ground)
     feet.mode[leg] = REACH
     for k in range(3):

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.kinematics import LegModel
+from robot_agent.locomotion.leg_reach import LegReach
 from robot_agent.locomotion.posture_plan import plan_change
 from robot_agent.locomotion.walk_tick import WalkInput, WalkOutput
 from robot_agent.locomotion.walker import Walker
@@ -36,6 +37,11 @@ class Postures:
         """Of the posture the legs are in; empty for a robot with one only."""
         posture = self._robots[self._now].posture
         return posture.name if posture is not None else ""
+
+    @property
+    def leg_reach(self) -> LegReach:
+        """Where the legs may put their feet in the posture they are in."""
+        return self._walkers[self._now].leg_reach
 
     def reset(self, joint_position: Array) -> None:
         """Begin from where the joints are, sitting; the posture is the last one that the legs were in."""

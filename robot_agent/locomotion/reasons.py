@@ -4,7 +4,7 @@ from functools import cache
 
 JOINT_ANGLE, JOINT_TORQUE, GRAVITY = 1, 2, 4
 VELOCITY, PARAMETER = 8, 16
-SERVO_SPEED, STRIDE, NO_GROUND, LEFT_BEHIND, SLOW_SERVOS = 32, 64, 128, 256, 512
+SERVO_SPEED, STRIDE, NO_GROUND, LEFT_BEHIND, SLOW_SERVOS, FOOTHOLD = 32, 64, 128, 256, 512, 1024
 
 SENTENCES = {
     JOINT_ANGLE: "a joint angle is missing",
@@ -17,6 +17,7 @@ SENTENCES = {
     NO_GROUND: "waiting for a foot to find ground",
     LEFT_BEHIND: "a foot is left far behind",
     SLOW_SERVOS: "the gait is slowed to what the servos can follow",
+    FOOTHOLD: "a foothold asked for is out of reach",
 }
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from robot_agent.kinematics import foot_force, foot_jacobian, leg_frames, link_gravity_torque
+from robot_agent.kinematics import foot_force, foot_jacobian, leg_frames, link_gravity_torque, link_inertia_torque
 from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.reasons import GRAVITY, JOINT_ANGLE, JOINT_TORQUE
 from robot_agent.locomotion.stability import centre_of_mass
@@ -20,6 +20,8 @@ def sense(walk: Record) -> None:
     if not _take_up(senses.up, readings.gravity):
         walk.answer.reasons |= GRAVITY
     measure(walk)
+    if walk.settings.foothold.contact_from_torque:
+        _feel_inertia(walk)
     _feel_forces(walk)
     _hold_contacts(walk)
 
@@ -94,9 +96,38 @@ def _feel_forces(walk: Record) -> None:
         jacobian, own = senses.jacobian[leg], senses.own_torque[leg, :n]
         foot_jacobian(origins, axes, jacobian)
         link_gravity_torque(origins, axes, model.link_mass, down, own)
+        if walk.settings.foothold.contact_from_torque:
+            for i in range(n):
+                own[i] += senses.inertia_torque[leg, i]
         foot_force(jacobian, senses.joint_torque[leg, :n], own, force)
         vertical = force[0] * up[0] + force[1] * up[1] + force[2] * up[2]
         senses.force[leg] += model.force_blend * (vertical - senses.force[leg])
+
+
+@kernel
+def _feel_inertia(walk: Record) -> None:
+    """What moving the links takes, from the wanted rates: without it a fast leg in the air would seem to touch."""
+    model, senses, joint = walk.model, walk.senses, walk.joint
+    n, acceleration, torque = model.joints, np.empty(model.joints), np.empty(model.joints)
+    for leg in range(model.legs):
+        for i in range(n):
+            rate = (joint.wanted[leg, i] - joint.previous[leg, i]) / model.dt
+            acceleration[i] = (rate - senses.rate[leg, i]) / model.dt
+            senses.rate[leg, i] = rate
+        link_inertia_torque(senses.origins[leg, : n + 1], senses.axes[leg, :n], model.link_mass, acceleration, torque)
+        for i in range(n):
+            senses.inertia_torque[leg, i] += model.force_blend * (torque[i] - senses.inertia_torque[leg, i])
+
+
+@kernel
+def touching(walk: Record, leg: int) -> bool:
+    """Whether a foot is on the ground: as sensed, or by its force, which has to fall lower than it rose to end that."""
+    if not walk.settings.foothold.contact_from_torque:
+        return bool(walk.readings.contact[leg])
+    senses, foothold = walk.senses, walk.settings.foothold
+    needed = foothold.liftoff_force if senses.pressing[leg] else foothold.touchdown_force
+    senses.pressing[leg] = senses.force[leg] > needed
+    return bool(senses.pressing[leg])
 
 
 @kernel
@@ -104,5 +135,5 @@ def _hold_contacts(walk: Record) -> None:
     senses = walk.senses
     for leg in range(walk.model.legs):
         left = max(senses.contact_left[leg] - walk.model.dt, 0.0)
-        senses.contact_left[leg] = walk.settings.foothold.contact_hold if walk.readings.contact[leg] else left
+        senses.contact_left[leg] = walk.settings.foothold.contact_hold if touching(walk, leg) else left
         senses.contact[leg] = senses.contact_left[leg] > 0.0

@@ -72,7 +72,8 @@ def fit_speed(walk: Record) -> None:
 @kernel
 def pace_of_moment(walk: Record) -> float:
     """The pace 0..1 at which no joint is too fast just now."""
-    return max(1.0 / max(walk.gait.demand, 1.0), SLOWEST_PACE)
+    pace: float = max(1.0 / max(walk.gait.demand, 1.0), SLOWEST_PACE)
+    return pace
 
 
 @kernel
@@ -87,4 +88,5 @@ def pace_of_stride(walk: Record) -> float:
         for place in range(HARDEST + 1):
             if peak > hardest[place]:
                 hardest[place], peak = peak, hardest[place]
-    return max(1.0 / max(hardest[HARDEST], 1.0), SLOWEST_PACE)
+    pace: float = max(1.0 / max(hardest[HARDEST], 1.0), SLOWEST_PACE)
+    return pace

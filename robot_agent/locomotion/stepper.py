@@ -25,6 +25,7 @@ from robot_agent.locomotion.load import carry_load
 from robot_agent.locomotion.reasons import LEFT_BEHIND, NO_GROUND, SLOW_SERVOS
 from robot_agent.locomotion.servo_pace import forget_demand, pace_of_moment, pace_of_stride
 from robot_agent.locomotion.walk_state import Array, Record
+from robot_agent.locomotion.walkspace_renewal import renew_walkspace
 
 PACE_TIME = 0.12
 """s in which the gait slows to a halt when a foot finds no ground, and takes up again."""
@@ -61,6 +62,7 @@ def stand(memory: Array, places: Array, share: float) -> None:
 def step(walk: Record) -> None:
     """One tick towards the ordered velocity: where the feet belong, and what they carry."""
     shift_stance(walk)
+    renew_walkspace(walk)
     follow_velocity(walk)
     start_or_stop(walk)
     if walk.gait.walking:
@@ -135,9 +137,9 @@ def advance(walk: Record) -> None:
 
 @kernel
 def follow_pace(walk: Record, target: float) -> None:
-    """Bring the pace nearer to its target, but never beyond what the servos can follow."""
+    """Bring the pace nearer to its target, but not beyond what the servos can follow, unless the feet are to land."""
     gait, change = walk.gait, walk.model.dt / PACE_TIME
-    if not walk.settings.spare_servos:
+    if gait.halted or not walk.settings.spare_servos:
         gait.pace += min(max(target - gait.pace, -change), change)
         return
     most = pace_of_stride(walk)

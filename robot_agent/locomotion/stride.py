@@ -39,6 +39,8 @@ def swing_nodes(
     ground_velocity: Array,
     touchdown_speed: float,
     half_time: float,
+    along_up: bool,
+    outward: Array,
     first: Array,
     second: Array,
 ) -> None:
@@ -46,7 +48,8 @@ def swing_nodes(
 
     The apex lies half-way, `height` along `up` above the higher end. The foot leaves and meets the ground at the
     ground's own velocity (3,) seen from the body, and meets it sinking at `touchdown_speed`. `half_time` s is the
-    duration of one curve.
+    duration of one curve. The apex is shifted by `outward` (3,) m. `along_up`: the whole second curve comes down on the
+    foothold along `up`, as seen from the ground.
     """
     rise = 0.0
     for k in range(3):
@@ -55,7 +58,9 @@ def swing_nodes(
     for k in range(3):
         leaving = 0.25 * half_time * ground_velocity[k]
         arriving = leaving - 0.25 * half_time * touchdown_speed * up[k]
-        apex = lift_off[k] + 0.5 * (foothold[k] - lift_off[k] - rise * up[k]) + apex_over_lift_off * up[k]
+        way = foothold[k] - lift_off[k] - rise * up[k]
+        across = way - 4.0 * leaving if along_up else 0.5 * way
+        apex = lift_off[k] + across + apex_over_lift_off * up[k]
         first[0, k] = lift_off[k]
         first[1, k] = lift_off[k] + leaving
         first[2, k] = lift_off[k] + 2.0 * leaving
@@ -65,13 +70,18 @@ def swing_nodes(
         second[3, k] = foothold[k] - arriving
         second[2, k] = foothold[k] - 2.0 * arriving
     for k in range(3):
-        first[3, k] = 0.5 * (first[4, k] + first[2, k])
+        if along_up:
+            first[3, k] = first[4, k] - 0.25 * half_time * ground_velocity[k]
+        else:
+            first[3, k] = 0.5 * (first[4, k] + first[2, k])
     # The node before the apex is as high as the apex: the foot passes it level, so the apex is the highest point.
     low = 0.0
     for k in range(3):
         low += (first[4, k] - first[3, k]) * up[k]
     for k in range(3):
-        first[3, k] += low * up[k]
+        first[3, k] += low * up[k] + outward[k]
+        first[4, k] += outward[k]
+        second[0, k] += outward[k]
         second[1, k] = 2.0 * second[0, k] - first[3, k]
 
 

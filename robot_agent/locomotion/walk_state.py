@@ -44,6 +44,10 @@ MODEL = np.dtype(
         ("radius", F, (LEGS, BEARINGS)),  # m of every leg's walkspace about its stance
         ("headroom", F, (LEGS,)),  # m that a foot can be lifted from its stance
         ("layers", F, (LAYERS,)),  # m above the stance, of the ground on which to walk
+        ("farthest", F),  # m from the stance, up to which the workspace is searched
+        ("safe_limits", F, (JOINTS, 2)),  # rad, with a margin
+        ("standing", F, (JOINTS,)),  # rad, where the search for a posture begins
+        ("reach", F),  # m, of the stretched leg
         ("down_limit", F),  # m, z in body between which footholds stay
         ("up_limit", F),
         ("dt", F),  # s, a tick
@@ -58,6 +62,8 @@ ORDERS = np.dtype(
         ("parameters", F, (3,)),  # frequency Hz, swing height m, stiffness N/m
         ("duty", F),
         ("offset", F, (LEGS,)),  # of the gait
+        ("targeted", N, (LEGS,)),  # whether the next swing is to end at `target`
+        ("target", F, (LEGS, 3)),  # m in the un-posed body
         ("posing_rotation", F, (3, 3)),  # unposed_from_body
         ("posing_position", F, (3,)),
     ]
@@ -79,11 +85,14 @@ SENSES = np.dtype(
         ("origins", F, (LEGS, JOINTS + 1, 3)),  # joints and foot, m in body
         ("axes", F, (LEGS, JOINTS, 3)),
         ("jacobian", F, (LEGS, 3, JOINTS)),
-        ("own_torque", F, (LEGS, JOINTS)),  # N m that hold the links' own weight
+        ("own_torque", F, (LEGS, JOINTS)),  # N m that hold the links, and move them where contact is told by torque
         ("up", F, (3,)),  # in body, against gravity
         ("force", F, (LEGS,)),  # N along up, low-passed
         ("contact", N, (LEGS,)),
         ("contact_left", F, (LEGS,)),  # s that a contact still counts
+        ("rate", F, (LEGS, JOINTS)),  # rad/s, wanted a tick ago
+        ("inertia_torque", F, (LEGS, JOINTS)),  # N m that move the links, low-passed
+        ("pressing", N, (LEGS,)),  # whether the torques tell of a foot on the ground
         ("centre_of_mass", F, (3,)),  # m in body
         ("unposed_up", F, (3,)),  # the same in the body as it would be without posing
         ("unposed_centre", F, (3,)),
@@ -99,6 +108,7 @@ FEET = np.dtype(
         ("anchor", F, (LEGS, 3)),  # where each foot last stood, measured, carried along by the body's motion
         ("lifted", N, (LEGS,)),  # has already swung in this stride
         ("swing_height", F, (LEGS,)),
+        ("aimed", N, (LEGS,)),  # whether this swing ends at `target`
         ("reached", F, (LEGS,)),  # m below the expected ground
         ("stance", F, (LEGS, 3)),  # middle of every stance, shifted for the inclination
         ("in_air", np.uint8, (LEGS,)),  # a bool; numba has none in records

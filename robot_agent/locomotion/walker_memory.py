@@ -7,7 +7,7 @@ import numpy as np
 from robot_agent.kinematics import LegModel
 from robot_agent.locomotion.walk_state import WalkState, write
 from robot_agent.locomotion.walkspace import fill_walkspace
-from robot_agent.locomotion.workspace import headroom, workspace
+from robot_agent.locomotion.workspace import LIMIT_MARGIN, headroom, workspace
 from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.frames import GRAVITY
 from weaver_shared.robots import RobotDescription
@@ -31,7 +31,8 @@ def walker_memory(robot: RobotDescription, model: LegModel, config: LocomotionCo
     record["plane_blend"] = 1.0 - np.exp(-dt / config.posture.plane_time)
     record["layers"] = model.reach * np.array(GROUND_HEIGHTS)
     record["headroom"][: model.leg_count] = headroom(model, stance, config.height_bounds[1])
-    _write_space(state, model, 0.5 * config.largest_stride + SPARE * model.reach)
+    record["farthest"] = 0.5 * config.largest_stride + SPARE * model.reach
+    _write_space(state, model)
     record["servo_lag"][: model.joints_per_leg] += dt  # the bus brings a target one tick later
     record["target_step"][: model.joints_per_leg] = [robot.servos[j.servo].no_load_speed * dt for j in robot.joints]
     record["foot_depth"] = -stance[:, 2].mean()
@@ -47,11 +48,12 @@ def walker_memory(robot: RobotDescription, model: LegModel, config: LocomotionCo
     return state
 
 
-def _write_space(state: WalkState, model: LegModel, largest: float) -> None:
+def _write_space(state: WalkState, model: LegModel) -> None:
     """Workspaces and walkspaces about the stances."""
     record, stance = state.record["space"], state.cut("model", "stance")
-    state.cut("space", "reach")[:] = workspace(model, stance, state.record["model"]["layers"], largest)
-    state.cut("space", "middle")[:] = stance
+    layers, farthest = state.record["model"]["layers"], float(state.record["model"]["farthest"])
+    state.cut("space", "reach")[:] = workspace(model, stance, layers, farthest)
+    state.cut("space", "middle")[:] = state.cut("feet", "stance")[:] = stance
     record["leg"] = -1
     overlapping = bool(state.record["settings"]["overlapping_walkspaces"])
     for leg, radius in enumerate(state.cut("model", "radius")):
@@ -61,12 +63,14 @@ def _write_space(state: WalkState, model: LegModel, largest: float) -> None:
 def _write_model(state: WalkState, robot: RobotDescription, model: LegModel) -> None:
     record = state.record["model"]
     record["legs"], record["joints"] = model.leg_count, model.joints_per_leg
-    record["closed_form"] = model.closed_form
+    record["closed_form"], record["reach"] = model.closed_form, model.reach
     record["trunk_mass"], record["trunk_centre"] = robot.body.mass, robot.body.centre_of_mass_in_body
     record["weight"] = robot.mass * GRAVITY
     arrays = {
         "dh": model.dh,
         "limits": model.limits,
+        "safe_limits": model.limits_less(LIMIT_MARGIN),
+        "standing": model.standing,
         "hips": model.hips,
         "hip_axes": model.hip_axes,
         "link_mass": model.link_mass,

@@ -13,11 +13,11 @@ HALF_TIME = 0.25
 small = st.floats(-0.1, 0.1)
 
 
-def curves(lift_off, foothold, height, ground, touchdown=0.0, up=UP):
+def curves(lift_off, foothold, height, ground, touchdown=0.0, up=UP, along_up=False, outward=(0.0, 0.0, 0.0)):
     first, second = np.zeros((5, 3)), np.zeros((5, 3))
     swing_nodes(
         np.array(lift_off, dtype=float), np.array(foothold, dtype=float), up, height, np.array(ground, dtype=float),
-        touchdown, HALF_TIME, first, second,
+        touchdown, HALF_TIME, along_up, np.array(outward), first, second,
     )  # fmt: skip
     return first, second
 
@@ -60,6 +60,40 @@ def test_a_foot_leaves_and_meets_the_ground_at_the_grounds_velocity():
 @given(st.lists(small, min_size=3, max_size=3), st.lists(small, min_size=3, max_size=3), small)
 def test_velocity_does_not_jump_at_the_apex(lift_off, foothold, speed):
     first, second = curves(lift_off, foothold, 0.05, [speed, 0.0, 0.0], touchdown=0.05)
+    before, after = np.zeros(3), np.zeros(3)
+    quartic_derivative(first, 1.0, before)
+    quartic_derivative(second, 0.0, after)
+    np.testing.assert_allclose(before, after, atol=1e-12)
+
+
+normal = st.tuples(st.floats(-0.3, 0.3), st.floats(-0.3, 0.3)).map(
+    lambda slopes: np.array([-slopes[0], -slopes[1], 1.0]) / np.sqrt(1.0 + slopes[0] ** 2 + slopes[1] ** 2)
+)
+
+
+@given(normal, st.lists(small, min_size=2, max_size=2))
+def test_a_foot_comes_down_along_the_normal_as_seen_from_the_ground(up, velocity):
+    ground = np.array([*velocity, 0.0])
+    ground -= (ground @ up) * up
+    lift_off, foothold = np.array([0.2, 0.1, -0.15]), np.array([0.3, 0.12, -0.13])
+    points = path(*curves(lift_off, foothold, 0.06, ground, touchdown=0.05, up=up, along_up=True))
+    left = 2.0 * HALF_TIME * (1.0 - np.linspace(0.0, 1.0, 401))[200:, None]
+    over_foothold = points[200:] - (foothold - left * ground)
+    aside = over_foothold - (over_foothold @ up)[:, None] * up
+    np.testing.assert_allclose(aside, 0.0, atol=1e-12)
+    heights = points @ up
+    assert heights.max() == pytest.approx(max(heights[0], heights[-1]) + 0.06, abs=1e-9)
+    np.testing.assert_allclose(points[[0, -1]], [lift_off, foothold], atol=1e-12)
+
+
+@given(small, st.booleans())
+def test_a_swing_bulges_by_its_width_at_the_apex_and_nowhere_more(width, along_up):
+    places = ([0.2, -0.3, -0.15], [0.35, -0.3, -0.15])
+    first, second = curves(*places, 0.05, [-0.1, 0.0, 0.0], outward=(0.0, width, 0.0), along_up=along_up)
+    points = path(first, second)
+    assert points[200, 1] + 0.3 == pytest.approx(width, abs=1e-12)
+    assert np.abs(points[:, 1] + 0.3).max() == pytest.approx(abs(width), abs=1e-9)
+    np.testing.assert_allclose(points[[0, -1], 1], -0.3, atol=1e-12)
     before, after = np.zeros(3), np.zeros(3)
     quartic_derivative(first, 1.0, before)
     quartic_derivative(second, 0.0, after)

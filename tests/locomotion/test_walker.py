@@ -123,7 +123,7 @@ def test_a_stop_ends_the_motion_in_half_a_second_and_lands_within_one_swing(freq
 
 
 def test_it_walks_on_after_a_stop_wherever_the_feet_are():
-    ideal = Ideal()
+    ideal = Ideal(KINEMATIC.model_copy(update={"spare_servos": False}))
     for pause in (0.3, 0.71, 1.13, 0.05):
         ideal.run(1.7, (0.3, 0.0, 0.0))
         ideal.run(pause)

@@ -53,6 +53,11 @@ class FootholdConfig(BaseModel):
     waiting_time: Positive = 1.0  # s the gait waits for a foot without ground before it goes on
     load_time: Positive = 0.08  # s over which a foot takes up or gives off its load
     contact_hold: Positive = 0.03  # s a contact outlasts its last reading
+    contact_from_torque: bool = False  # the servos' torques tell of contact; False: the feet's own sensors
+    touchdown_force: Positive = 10.0  # N along gravity from which on a foot counts as on the ground
+    liftoff_force: Positive = 4.0  # N under which it no longer does
+    along_normal: bool = False  # the second half of a swing comes down along the ground's normal
+    swing_width: float = 0.0  # m that the middle of a swing lies farther out than its ends; negative: farther in
 
 
 class StabilityConfig(BaseModel):

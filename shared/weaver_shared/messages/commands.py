@@ -31,6 +31,7 @@ class CommandName(StrEnum):
     LOWER_LEG = "lower_leg"  # name of a leg, or none for all
     MOVE_TIP = "move_tip"  # name: LEG.x, LEG.y, LEG.z; value m in body from where it was lifted to
     MOVE_JOINT = "move_joint"  # name: LEG_joint; value rad
+    PLACE_FOOT = "place_foot"  # name: LEG.world, LEG.body; one waypoint x, y and value z (m): its next swing; seconds
     SET_POSING = "set_posing"  # name: automatic, levelling; value 1 or 0
 
 
