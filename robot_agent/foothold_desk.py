@@ -51,7 +51,9 @@ class FootholdDesk:
         if frame not in FRAMES:
             raise InputError(f"frame {frame!r:.40} of a foothold is unknown; known are {', '.join(FRAMES)}")
         if len(command.waypoints) != 1:
-            raise InputError(f"a foothold is one waypoint for x and y, and a value for z; {len(command.waypoints)} came")
+            raise InputError(
+                f"a foothold is one waypoint for x and y, and a value for z; {len(command.waypoints)} came"
+            )
         place = (command.waypoints[0].x, command.waypoints[0].y, command.value)
         seconds = command.seconds or USUAL
         if not (all(isfinite(part) for part in place) and isfinite(seconds)):

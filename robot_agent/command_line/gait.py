@@ -14,7 +14,7 @@ from typing import TextIO
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.command_line import gait_of_openshc
+from robot_agent.command_line import gait_of_openshc, gait_plot
 from robot_agent.locomotion.trajectory import kinematic_gait
 from robot_agent.locomotion.trajectory_table import columns, rows
 from weaver_shared.errors import ConfigurationError, InputError, ResourceError
@@ -34,10 +34,12 @@ def main(arguments: list[str]) -> int:
         if not (isfinite(value) and value > 0.0):
             raise InputError(f"{name} {value} is not valid; use a number above zero")
     velocity = _velocity(options.velocity)
+    if options.compat and options.plot:
+        raise InputError("--plot shows the gaits of this program; leave --compat out")
     if options.compat:
         if options.compat != COMPATIBLE:
             raise ConfigurationError(f"--compat {options.compat!r} is unknown; known is {COMPATIBLE}")
-        with _opened(options.csv) as legs, _opened(options.body or os.devnull) as body:
+        with _opened(options.csv or "-") as legs, _opened(options.body or os.devnull) as body:
             gait_of_openshc.write(options, velocity, legs, body)
         return 0
     gait_of_openshc.refuse(options)
@@ -53,7 +55,13 @@ def main(arguments: list[str]) -> int:
     ticks = kinematic_gait(
         robot, gait=gait.name, velocity=velocity, ticks=options.ticks or TICKS, parameters=parameters, dt=options.dt
     )
-    with _opened(options.csv) as stream:
+    if options.plot:
+        recorded = list(ticks)
+        gait_plot.write(options.plot, robot, gait, recorded, parameters, options.dt)
+        if options.csv is None:
+            return 0
+        ticks = iter(recorded)
+    with _opened(options.csv or "-") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(columns(robot.joints_per_leg))
         writer.writerows(rows(robot, gait, ticks, parameters, options.dt))
@@ -82,9 +90,13 @@ def _parser() -> argparse.ArgumentParser:
         "--csv",
         nargs="?",
         const="-",
-        default="-",
         metavar="FILE",
-        help="where to write; the standard output unless told",
+        help="where to write; the standard output unless told, or nowhere with --plot",
+    )
+    parser.add_argument(
+        "--plot",
+        metavar="FILE",
+        help="draw workspaces, walkspaces, speed limits, the foot's path and the gait's timing (.png, .svg or .pdf)",
     )
     return parser
 

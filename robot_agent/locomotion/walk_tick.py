@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.locomotion.footholds import FootholdOrder
 from robot_agent.locomotion.leg_order import LegOrder
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from robot_agent.locomotion.posture_order import NO_POSTURE_ORDER, PostureOrder
@@ -38,6 +39,7 @@ class WalkInput(NamedTuple):
     gravity_in_body: Array  # (3,) unit vector, downwards
     posing: PosingOrder = NO_POSING
     legs: tuple[LegOrder, ...] = ()  # to be held off the ground
+    footholds: tuple[FootholdOrder, ...] = ()  # in body, of the next swings of single legs
     in_sequence: bool = False  # stand up and sit down with legs in alternating groups; False: all at once
     pack: bool = False  # fold the legs away when sitting
     posture_order: PostureOrder = NO_POSTURE_ORDER  # of the legs

@@ -7,7 +7,9 @@ from numpy.typing import NDArray
 
 from robot_agent.kinematics import LegModel
 from robot_agent.locomotion.folding import Folding
+from robot_agent.locomotion.footholds import Footholds
 from robot_agent.locomotion.footing import Footing
+from robot_agent.locomotion.leg_reach import LegReach
 from robot_agent.locomotion.legs_tick import (
     believe,
     foot_tick,
@@ -71,6 +73,7 @@ class Walker:
         self._unhindered = False  # on its legs, stable, with none in hand and without a pose
         self._poser = Poser(config, model, robot.stance_in_body, np.array(robot.body.centre_of_mass_in_body), state, dt)
         self._manipulation = Manipulation(robot.leg_names, state, config, dt)
+        self._footholds = Footholds(model.leg_count, state)
         self._footing = Footing(robot.leg_names, state, config.footing, dt)
         self._stability = StabilityWatch(config.stability, dt)
         self._posture = "sitting"
@@ -83,6 +86,18 @@ class Walker:
         self._choose_gait(robot.gaits[0])
         self._phase[:] = state.cut("orders", "offset")
         self.reset(np.zeros(self._angles.size))
+
+    @property
+    def leg_reach(self) -> LegReach:
+        """Where the legs may put their feet; its arrays are the walker's own."""
+        model = self._state.record["model"]
+        return LegReach(
+            stance_in_body=self._stances,
+            radius=self._state.cut("model", "radius"),
+            moved=self._state.cut("space", "moved"),
+            lowest=float(model["down_limit"]),
+            highest=float(model["up_limit"]),
+        )
 
     def reset(self, joint_position: Array) -> None:
         """Begin from where the joints are: hold them, sitting, until told to stand. Bad readings change nothing."""
@@ -98,6 +113,7 @@ class Walker:
         self._end_change()
         self._poser.clear()
         self._manipulation.clear()
+        self._footholds.clear()
         self._in_air[:], self._walked[:] = False, 0.0
 
     def begin_standing(self) -> Array:
@@ -163,6 +179,8 @@ class Walker:
     def step(self, sensed: WalkInput) -> WalkOutput:
         """One control tick. Readings and orders that are not finite are replaced and named in `reasons`."""
         reasons = self._take(sensed)
+        if sensed.footholds or not self._footholds.idle:
+            self._footholds.step(sensed.footholds, self._poser.pose)
         upright = self._posture in UPRIGHT
         if self._unhindered and sensed.stand and not sensed.legs:
             done = self._whole_tick(sensed.posing)
