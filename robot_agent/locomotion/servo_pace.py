@@ -30,6 +30,7 @@ def forget_demand(walk: Record) -> None:
     gait = walk.gait
     gait.demand, gait.freshest_peak, gait.stretch = 0.0, 0.0, 0
     gait.peaks[:] = 0.0
+    gait.stride_pace = 1.0
     gait.fastest = walk.settings.largest_speed
 
 
@@ -52,7 +53,8 @@ def learn_demand(walk: Record, demanded: float) -> None:
     stretch = min(int(gait.phase * PEAKS), PEAKS - 1)
     if stretch != gait.stretch:
         gait.peaks[gait.stretch] = gait.freshest_peak
-        if stretch < gait.stretch:
+        gait.stride_pace = pace_of_stride(walk)
+        if stretch < gait.stretch and walk.settings.spare_servos:
             fit_speed(walk)
         gait.stretch, gait.freshest_peak = stretch, 0.0
     gait.freshest_peak = max(gait.freshest_peak, gait.demand)
@@ -61,7 +63,7 @@ def learn_demand(walk: Record, demanded: float) -> None:
 @kernel
 def fit_speed(walk: Record) -> None:
     """Once a stride: where the pace has to be low, walk with shorter strides, for stretched legs are slow ones."""
-    gait, pace = walk.gait, pace_of_stride(walk)
+    gait, pace = walk.gait, walk.gait.stride_pace
     if pace < LOW_PACE:
         slower = 0.5 * (1.0 + pace / LOW_PACE) * speed_of(gait.commanded)
         gait.fastest = min(max(slower, LEAST_SPEED * walk.settings.largest_speed), gait.fastest)

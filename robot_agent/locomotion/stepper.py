@@ -23,7 +23,7 @@ from robot_agent.locomotion.gait_start import best_start, overrun
 from robot_agent.locomotion.impedance import give_way
 from robot_agent.locomotion.load import carry_load
 from robot_agent.locomotion.reasons import LEFT_BEHIND, NO_GROUND, SLOW_SERVOS
-from robot_agent.locomotion.servo_pace import forget_demand, pace_of_moment, pace_of_stride
+from robot_agent.locomotion.servo_pace import forget_demand, pace_of_moment
 from robot_agent.locomotion.walk_state import Array, Record
 from robot_agent.locomotion.walkspace_renewal import renew_walkspace
 
@@ -142,7 +142,7 @@ def follow_pace(walk: Record, target: float) -> None:
     if gait.halted or not walk.settings.spare_servos:
         gait.pace += min(max(target - gait.pace, -change), change)
         return
-    most = pace_of_stride(walk)
+    most = gait.stride_pace
     if most < 1.0 - SLOWNESS_TOLD:
         walk.answer.reasons |= SLOW_SERVOS
     gait.pace += min(max(min(target, most) - gait.pace, -change), change)

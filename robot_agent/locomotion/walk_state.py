@@ -134,6 +134,7 @@ GAIT = np.dtype(
         ("peaks", F, (PEAKS,)),  # the largest of it in every stretch of the last stride
         ("stretch", N),  # of the stride, under way
         ("freshest_peak", F),  # of that stretch
+        ("stride_pace", F),  # 0..1, the pace that those peaks allow
         ("fastest", F),  # m/s, the largest speed at which the servos keep up
         ("limited", F, (3,)),  # the ordered velocity within the limits
         ("commanded", F, (3,)),  # after slewing

@@ -26,6 +26,29 @@ def test_the_table_has_a_row_per_tick_and_leg_and_idles_first(capsys):
         assert name in rows[0]
 
 
+@pytest.mark.parametrize("kind", ["png", "svg"])
+def test_a_gait_is_drawn_into_a_file_and_printed_only_when_asked(kind, tmp_path, capsys):
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / f"gait.{kind}"
+    assert gait.main(["--ticks", "150", "--gait", "ripple", "--plot", str(picture)]) == 0
+    assert not capsys.readouterr().out
+    assert picture.stat().st_size > 20_000
+    assert gait.main(["--ticks", "3", "--plot", str(picture), "--csv"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 1 + 4 * 6
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (["--plot", "gait.txt"], "end with .png, .svg"),
+        (["--plot", "a.png", "--compat", "openshc-0.5.11"], "leave --compat"),
+    ],
+)
+def test_pictures_that_can_not_be_drawn_are_refused(arguments, reason):
+    with pytest.raises(WeaverError, match=reason):
+        gait.main(["--ticks", "3", *arguments])
+
+
 def test_csv_without_a_file_is_the_standard_output(capsys):
     assert table(capsys, "--ticks", "3", "--csv") == table(capsys, "--ticks", "3")
 
