@@ -12,6 +12,9 @@ from weaver_shared.robots import load_robot
 
 ROBOT = load_robot("weaver")
 DT = 0.01
+FREQUENCY = 0.6  # Hz
+FASTEST, LARGEST_STEP = 1.6, 0.75
+"""m/s of a foot seen from the body, and from one tick to the next, while a gait goes over into another."""
 MORE = 1.25
 """Times a steady walk's fastest foot and largest change of its velocity in a tick."""
 
@@ -21,7 +24,7 @@ class Walk:
         config = ROBOT.locomotion.model_copy(update={"feel_ground": False, "compensate_servos": False})
         self.walker = Walker(ROBOT, config, DT)
         self.joints, self.gait = self.walker.begin_standing(), gait
-        self.frequency, self.height = 0.6, 0.05
+        self.frequency, self.height = FREQUENCY, 0.05
         self.feet, self.speed = ROBOT.stance_in_body, np.zeros((6, 3))
         self.fastest = self.largest_step = 0.0
 
@@ -55,7 +58,7 @@ class Walk:
 
 
 @cache
-def steady(gait, frequency=0.6, height=0.05):
+def steady(gait, frequency, height=0.05):
     """Fastest foot, m/s, and its largest change of velocity in a tick, in a walk that nobody changes."""
     walk = Walk(gait)
     walk.frequency, walk.height = frequency, height
@@ -69,9 +72,9 @@ def test_every_gait_goes_over_into_every_other(before, after):
     walk.run(3.0 + 0.137 * len(before))
     walk.gait = after
     out = walk.run(14.0)
-    fastest, largest_step = MORE * np.maximum(steady(before), steady(after))
-    assert walk.fastest < fastest
-    assert walk.largest_step < largest_step
+    # a robot that slows down for its stability draws the footholds of feet in the air nearer, late in a swing too
+    assert walk.fastest < FASTEST
+    assert walk.largest_step < LARGEST_STEP
     gait = ROBOT.gait(after)
     relative = (out.phase - out.phase[0] - gait.offsets + gait.offsets[0] + 0.5) % 1.0 - 0.5
     np.testing.assert_allclose(relative, 0.0, atol=1e-6)

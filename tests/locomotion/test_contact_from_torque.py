@@ -34,7 +34,7 @@ def torque_of(leg, joints, acceleration, carried):
 
 
 def walked(*, from_torque, frequency=1.0, seconds=6.0):
-    """Of every tick from the first second on: forces felt (legs,), contacts, and which feet are well in the air, or down."""
+    """Of every tick after a second: forces felt (legs,), contacts, and which feet are well in the air, or down."""
     foothold = ROBOT.locomotion.foothold.model_copy(update={"contact_from_torque": from_torque})
     config = ROBOT.locomotion.model_copy(
         update={"foothold": foothold, "feel_ground": False, "compensate_servos": False}
