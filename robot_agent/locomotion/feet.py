@@ -15,6 +15,8 @@ from robot_agent.locomotion.walkspace import radius_towards
 STAND, SWING, REACH, HANG, HELD = 0, 1, 2, 3, 4
 """HANG: reached as far as it may without finding ground; carries nothing until its next swing.
 HELD: in the operator's hands."""
+FOOTHOLD_SPEED = 0.25
+"""m/s, at which a foothold moves in the body while its foot is on the way there."""
 
 
 @kernel
@@ -100,6 +102,7 @@ def lift(walk: Record, leg: int) -> None:
     offset[leg, 0], offset[leg, 1] = 0.0, 0.0
     feet.mode[leg] = SWING
     feet.swing_height[leg] = min(walk.gait.height, walk.model.headroom[leg])
+    feet.planned[leg] = False
     feet.aimed[leg] = walk.orders.targeted[leg]
     feet.lifted[leg] = True
     feet.reached[leg] = 0.0
@@ -141,6 +144,8 @@ def _swing(walk: Record, leg: int, progress: float) -> None:
     foothold[2] = min(max(z, model.down_limit), model.up_limit)
     if feet.aimed[leg]:
         aim(walk, leg, foothold)
+    else:
+        draw_foothold(walk, leg, foothold)
     half_time = 0.5 * (1.0 - gait.duty) / gait.frequency
     if progress >= 1.0:
         for k in range(3):
@@ -156,6 +161,22 @@ def _swing(walk: Record, leg: int, progress: float) -> None:
         walk.settings.foothold.along_normal != 0, outward, first, second,
     )  # fmt: skip
     swing_point(progress, first, second, feet.place[leg])
+
+
+@kernel
+def draw_foothold(walk: Record, leg: int, foothold: Array) -> None:
+    """Let a swing's foothold (3,) follow its plan at a bounded speed: a foot about to land is not snatched away."""
+    feet, away, share = walk.feet, 0.0, 1.0
+    if feet.planned[leg]:
+        for k in range(3):
+            away += (foothold[k] - feet.foothold[leg, k]) ** 2
+        away, largest = np.sqrt(away), FOOTHOLD_SPEED * walk.model.dt
+        if away > largest:
+            share = largest / away
+        for k in range(3):
+            foothold[k] = feet.foothold[leg, k] + share * (foothold[k] - feet.foothold[leg, k])
+    feet.planned[leg] = True
+    feet.foothold[leg, :] = foothold
 
 
 @kernel

@@ -108,6 +108,8 @@ FEET = np.dtype(
         ("anchor", F, (LEGS, 3)),  # where each foot last stood, measured, carried along by the body's motion
         ("lifted", N, (LEGS,)),  # has already swung in this stride
         ("swing_height", F, (LEGS,)),
+        ("planned", N, (LEGS,)),  # whether `foothold` is that of this swing
+        ("foothold", F, (LEGS, 3)),  # m, where the swing ends
         ("aimed", N, (LEGS,)),  # whether this swing ends at `target`
         ("reached", F, (LEGS,)),  # m below the expected ground
         ("stance", F, (LEGS, 3)),  # middle of every stance, shifted for the inclination

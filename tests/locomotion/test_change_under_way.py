@@ -13,7 +13,7 @@ from weaver_shared.robots import load_robot
 ROBOT = load_robot("weaver")
 DT = 0.01
 FREQUENCY = 0.6  # Hz
-FASTEST, LARGEST_STEP = 1.6, 0.75
+FASTEST, LARGEST_STEP = 1.6, 0.45
 """m/s of a foot seen from the body, and from one tick to the next, while a gait goes over into another."""
 MORE = 1.25
 """Times a steady walk's fastest foot and largest change of its velocity in a tick."""
