@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.evaluation.asl_recording import inertia_up_to
+from robot_agent.evaluation.asl_recording import inertia_up_to, interval_means
 from robot_agent.evaluation.trajectory import nanoseconds
 from robot_agent.vision.camera import PinholeCamera, StereoCalibration
 from weaver_shared.errors import InputError
@@ -103,10 +103,16 @@ def _camera(meta: dict[str, float]) -> PinholeCamera:
 
 
 def _inertia(rows: list[dict[str, str]]) -> ImuBatch:
-    return ImuBatch(
-        stamp_ns=np.array([nanoseconds(row["t_abs"]) for row in rows], dtype=np.int64),
-        angular_velocity_in_imu=np.array([[float(row[k]) for k in ("gx", "gy", "gz")] for row in rows]).reshape(-1, 3),
-        specific_force_in_imu=np.array([[float(row[k]) for k in ("ax", "ay", "az")] for row in rows]).reshape(-1, 3),
+    return interval_means(
+        ImuBatch(
+            stamp_ns=np.array([nanoseconds(row["t_abs"]) for row in rows], dtype=np.int64),
+            angular_velocity_in_imu=np.array([[float(row[k]) for k in ("gx", "gy", "gz")] for row in rows]).reshape(
+                -1, 3
+            ),
+            specific_force_in_imu=np.array([[float(row[k]) for k in ("ax", "ay", "az")] for row in rows]).reshape(
+                -1, 3
+            ),
+        )
     )
 
 

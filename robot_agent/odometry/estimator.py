@@ -8,9 +8,11 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.odometry.contacts import ContactStream, FootContacts
 from robot_agent.odometry.front_end import FrontEnd
 from robot_agent.odometry.imu_stream import ImuStream, Inertia
 from robot_agent.odometry.landmarks import Eyes
+from robot_agent.odometry.leg_way import Way, joined, way_of
 from robot_agent.odometry.propagation import propagate
 from robot_agent.odometry.start import Beginning, begin_again, begin_at_rest, begin_in_motion, is_still, levelled
 from robot_agent.odometry.tracks import Tracks
@@ -76,15 +78,18 @@ class StereoInertialOdometry:
             self._config,
         )
         self._stream = ImuStream(self._config.failure)
+        self._feet = ContactStream(self._config.feet)
         self._initial = initial
         self._stamp: int | None = None
         self._started = False
         self._lost = False
+        self._on_feet = False  # the newest frame's place is also known by the feet
         self._waited = 0.0
         self._history: deque[Array] = deque()
         self._flows: deque[float] = deque(maxlen=100)  # px, motion seen in the last pictures
         self._pending: list[Array] = []  # inertia since the window's newest frame
         self._pending_trusted = True
+        self._pending_way: Way | None = None  # of the feet, likewise
         self._rate = np.zeros(3)
         self._world_from_imu = initial @ self._body_from_imu
         self._velocity = np.zeros(3)
@@ -95,13 +100,20 @@ class StereoInertialOdometry:
         """Estimated correction to the calibrated camera to IMU time offset, s."""
         return float(self._window.frames.time_offset[0])
 
-    def step(self, frame: StereoFrame, imu: ImuBatch) -> OdometryEstimate:
-        """The body's pose at the frame's stamp, from the pair and all inertial samples since the previous one."""
+    def step(self, frame: StereoFrame, imu: ImuBatch, contacts: FootContacts | None = None) -> OdometryEstimate:
+        """The body's pose at the frame's stamp, from the pair and all inertial samples since the previous one.
+
+        `contacts`, where the robot feels its feet, say how far it went over them; without pictures they go on alone.
+        """
         self._stream.add(imu)
+        if contacts is not None:
+            self._feet.add(contacts)
         if self._stamp is not None and frame.stamp_ns <= self._stamp:
             return self._report(OdometryQuality.DEGRADED, "picture repeated or out of order", 0)
         self._stamp = frame.stamp_ns
-        inertia = self._stream.take_until(frame.stamp_ns + self._time_offset_ns)
+        end_ns = frame.stamp_ns + self._time_offset_ns
+        inertia = self._stream.take_until(end_ns)
+        self._walk_on(inertia, end_ns)
         self._rate = inertia.rate
         self._remember(inertia)
         return self._track(frame, inertia) if self._started else self._start(frame, inertia)
@@ -173,7 +185,7 @@ class StereoInertialOdometry:
         if self._lost and not blind:
             self._begin_again(tracks)
             return self._report(OdometryQuality.DEGRADED, "began again after being lost", tracks.number)
-        if blind and not resting:
+        if blind and not resting and self._pending_way is None:
             return self._report_blind(tracks)
         try:
             self._settle(tracks, resting)
@@ -194,6 +206,7 @@ class StereoInertialOdometry:
             tracks,
             resting=resting,
             noise_scale=noise_scale,
+            way=self._pending_way,
         )
         solved, wrong = window.optimise()
         k = window.newest
@@ -208,6 +221,7 @@ class StereoInertialOdometry:
         )
         self._velocity = velocity.copy()
         self._lost = False
+        self._on_feet = self._pending_way is not None and not resting
         self._clear_pending()
 
     def _predict(self) -> None:
@@ -244,9 +258,18 @@ class StereoInertialOdometry:
             tracks,
         )
 
+    def _walk_on(self, inertia: Inertia, end_ns: int) -> None:
+        """Add what the feet went since the previous picture to what they went since the window's newest frame."""
+        bias = self._window.frames.gyro_bias[self._window.newest] if self._started else np.zeros(3)
+        way = way_of(
+            self._feet.take_until(end_ns), inertia.samples, end_ns, bias, self._imu_from_body, self._config.feet
+        )
+        self._pending_way = joined(self._pending_way, way, self._config.feet) if self._pending else way
+
     def _clear_pending(self) -> None:
         self._pending = []
         self._pending_trusted = True
+        self._pending_way = None
 
     # ---- standstill ------------------------------------------------------------------------------------------------
 
@@ -279,7 +302,9 @@ class StereoInertialOdometry:
 
     def _judge(self, tracks: Tracks, inertia: Inertia) -> tuple[OdometryQuality, str]:
         reasons = [problem for problem in (tracks.problem, inertia.problem) if problem]
-        if tracks.number < self._config.failure.good_features:
+        if tracks.number < self._config.failure.least_features:
+            reasons.append("on inertia and feet" if self._on_feet else "standing without sight")
+        elif tracks.number < self._config.failure.good_features:
             reasons.append(f"only {tracks.number} features")
         return (OdometryQuality.DEGRADED, "; ".join(reasons)) if reasons else (OdometryQuality.GOOD, "")
 

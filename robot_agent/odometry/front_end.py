@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from robot_agent.odometry.corner_grid import CornerGrid
 from robot_agent.odometry.depth_plane import fit_inverse_depth, inverse_depth
 from robot_agent.odometry.exposure import matched, picture_problem
+from robot_agent.odometry.ground_warp import carried, ground_warp, warped
 from robot_agent.odometry.landmarks import LEFT, RIGHT
 from robot_agent.odometry.outlier_rejection import consistent, unit_rays
 from robot_agent.odometry.tracks import Tracks
@@ -100,7 +101,10 @@ class FrontEnd:
         moved = left_from_previous.transform(np.column_stack([before, np.ones(len(before))]) * depth[:, None])
         guess = project(self._left, moved)
         guess = np.where(np.isfinite(guess), guess, self._pixel)
-        found, tracked, _ = self._search(self._previous, picture, guess, predicted=self._predictable)
+        warp = ground_warp(self._left, self._left, left_from_previous, self._ground)
+        found, tracked, _ = self._search(
+            self._previous, warped(picture, warp), warp, guess, predicted=self._predictable
+        )
         good = tracked & self._inside(self._left, found)
         old, self._pixel, self._depth = self._pixel, found, np.where(good, moved[:, 2], np.nan)
         after = normalise(self._left, self._pixel)
@@ -117,10 +121,15 @@ class FrontEnd:
         self._keep(good)
         return flow
 
-    def _search(self, first: Picture, second: Picture, guess: Array, *, predicted: bool) -> tuple[Array, Mask, Array]:
+    def _search(
+        self, first: Picture, second: Picture, warp: Array | None, guess: Array, *, predicted: bool
+    ) -> tuple[Array, Mask, Array]:
+        """Find the tracks of the first picture, near `guess` (n, 2), in the second, `warp`ed to look like it."""
         config = self._config
         levels = config.predicted_levels if predicted else config.levels
-        return _lucas_kanade(first, second, self._pixel, guess, config.window, levels)
+        back: Array | None = None if warp is None else np.linalg.inv(warp).astype(np.float64)
+        found, tracked, error = _lucas_kanade(first, second, self._pixel, carried(back, guess), config.window, levels)
+        return carried(warp, found), tracked, error
 
     def _refill(self, picture: Picture) -> None:
         if len(self._pixel) > 0.92 * self._config.features:
@@ -142,8 +151,10 @@ class FrontEnd:
         best = np.zeros((len(plane), 2))
         best_error = np.full(len(plane), np.inf)
         best_depth = np.full(len(plane), np.nan)
+        warp = ground_warp(self._left, self._right, self._right_from_left, self._ground)
+        seen = warped(right, warp)
         for guess in guesses:
-            where, error, depth = self._match_from(left, right, plane, guess)
+            where, error, depth = self._match_from(left, seen, warp, plane, guess)
             better = error < best_error
             best[better], best_error[better], best_depth[better] = where[better], error[better], depth[better]
         good = np.isfinite(best_error)
@@ -151,12 +162,17 @@ class FrontEnd:
         self._ground = fit_inverse_depth(plane, self._depth)
         return best, good
 
-    def _match_from(self, left: Picture, right: Picture, plane: Array, guess: Array) -> tuple[Array, Array, Array]:
-        """One search from a guessed inverse depth (n,): coordinates, error (infinite if wrong) and depth."""
+    def _match_from(
+        self, left: Picture, right: Picture, warp: Array | None, plane: Array, guess: Array
+    ) -> tuple[Array, Array, Array]:
+        """One search from a guessed inverse depth (n,): coordinates, error (infinite if wrong) and depth.
+
+        `right` is the right picture, or what `warp` made of it.
+        """
         rays = np.column_stack([plane, np.ones(len(plane))])
         start = project(self._right, self._right_from_left.transform(rays / guess[:, None]))
         start = np.where(np.isfinite(start), start, self._pixel)
-        found, tracked, error = self._search(left, right, start, predicted=self._ground is not None)
+        found, tracked, error = self._search(left, right, warp, start, predicted=self._ground is not None)
         where = normalise(self._right, found)
         depth, off = _stereo_depth(self._right_from_left, rays, where)
         good = tracked & self._inside(self._right, found) & (off * self._right.fx < self._config.epipolar_gate)

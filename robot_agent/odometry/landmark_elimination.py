@@ -58,14 +58,18 @@ def add_reprojections(
     count: int,
     per_sigma: float,
     huber: float,
+    trust: float,
     elimination: Elimination,
     hessian: Array,
     gradient: Array,
 ) -> float:
-    """Add the `chosen` landmarks seen by two frames, already eliminated; errors at `frames`, Jacobians at `origin`."""
+    """Add the `chosen` landmarks seen by two frames, already eliminated; errors at `frames`, Jacobians at `origin`.
+
+    Beyond `huber` sigmas an observation counts less; all of them count `trust` times as much as their sigmas say.
+    """
     poses = np.zeros((POSE * count + 1, POSE * count + 1))
     pull = np.zeros(POSE * count + 1)
-    cost = _gather(frames, origin, landmarks, chosen, eyes, count, per_sigma, huber, elimination, poses, pull)
+    cost = _gather(frames, origin, landmarks, chosen, eyes, count, per_sigma, huber, trust, elimination, poses, pull)
     _scatter(poses, pull, count, hessian, gradient)
     return cost
 
@@ -80,6 +84,7 @@ def _gather(
     count: int,
     per_sigma: float,
     huber: float,
+    trust: float,
     elimination: Elimination,
     poses: Array,
     pull: Array,
@@ -91,7 +96,7 @@ def _gather(
     rows = np.empty((4, WIDTH))
     own, own_pull = np.empty((3, 3)), np.empty(3)
     halves = np.empty((3, t + 1))
-    cost = 0.0
+    cost, root = 0.0, np.sqrt(trust)
     for row in range(landmarks.identity.shape[0]):
         elimination.end[row] = 0
         if not chosen[row] or not landmarks.solved[row]:
@@ -117,7 +122,7 @@ def _gather(
                 observation_rows(rotation, position, eyes, linear, landmarks.point, row, k, e, rows)
                 size = np.sqrt(x * x + y * y)
                 cost += 0.5 * size * size if size <= huber else huber * (size - 0.5 * huber)
-                weight = 1.0 if size <= huber else np.sqrt(huber / size)
+                weight = root if size <= huber else root * np.sqrt(huber / size)
                 _weigh(rows, e, weight, x, y, per_sigma, origin.rate, origin.velocity, k)
             _accumulate(rows, POSE * k, t, coupling, own, own_pull, poses, pull)
         if not _factorise(own, elimination.inverse, row):  # behind every eye that saw it: it says nothing
@@ -125,7 +130,7 @@ def _gather(
         elimination.first[row], elimination.end[row] = first, end
         elimination.gradient[row] = own_pull
         _eliminate(coupling, own, own_pull, POSE * first, POSE * end, t, halves, poses, pull)
-    return cost
+    return cost * trust
 
 
 @compiled_for_speed

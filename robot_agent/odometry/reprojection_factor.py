@@ -80,13 +80,20 @@ def observation_rows(
 @compiled
 def reject(
     frames: Frames, landmarks: Landmarks, eyes: Eyes, count: int, per_sigma: float, gate: float
-) -> NDArray[np.bool_]:
-    """Unsee every observation beyond `gate` sigmas; True for the rows whose newest observation was among them."""
+) -> tuple[NDArray[np.bool_], float]:
+    """Unsee every observation beyond `gate` sigmas; True for the rows whose newest observation was among them.
+
+    Also tells the root mean square of what is left of points seen more than twice, in sigmas; NaN without any.
+    """
     _, _, views = exposure_views(frames, eyes, count)
     dead = np.zeros(landmarks.identity.shape[0], dtype=np.bool_)
+    squares, number = 0.0, 0
     for row in range(landmarks.identity.shape[0]):
         if not landmarks.solved[row]:
             continue
+        sightings = 0
+        for k in range(count):
+            sightings += landmarks.seen[row, k] > 0
         for k in range(count):
             for e in range(2):
                 bit = 1 << e
@@ -97,4 +104,7 @@ def reject(
                     landmarks.seen[row, k] &= np.uint8(3 - bit)
                     if k == count - 1:
                         dead[row] = True
-    return dead
+                elif sightings > 2:
+                    squares += ex * ex + ey * ey
+                    number += 2
+    return dead, np.sqrt(squares / number) if number else np.nan

@@ -13,11 +13,13 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve
 from robot_agent.odometry.inertial_factor import add_inertia
 from robot_agent.odometry.landmark_elimination import Elimination, add_reprojections, move_points
 from robot_agent.odometry.landmarks import Eyes, Landmarks, triangulate
+from robot_agent.odometry.leg_way import Way, joined
 from robot_agent.odometry.preintegration import Preintegrations, begin, integrate
 from robot_agent.odometry.prior import Prior, eliminate
 from robot_agent.odometry.reprojection_factor import exposure_views, reject
 from robot_agent.odometry.rest_factor import add_rest
 from robot_agent.odometry.tracks import Tracks
+from robot_agent.odometry.way_factor import Ways, add_ways
 from robot_agent.odometry.window_state import STATE, Frames, advance, unknowns
 from weaver_shared.config.odometry import OdometryConfig
 from weaver_shared.frames import GRAVITY
@@ -34,6 +36,12 @@ CONVERGED = 3e-4
 GYRO_BIAS_DRIFT, ACCEL_BIAS_DRIFT = 0.01, 0.1
 """rad/s, m/s^2: a bias further than this from the one integrated with needs a second integration."""
 
+RESIDUAL_MEMORY = 0.02
+"""Share of the newest frame in the observations' mean error: fifty frames, four seconds."""
+
+LEAST_SIGMA, MOST_SIGMA = 0.5, 4.0
+"""Times the configured sigma: between which an observation's own is found."""
+
 
 class SlidingWindow:
     """Give it `begin`, then per frame `add_frame` and `optimise`; the last used slot is the newest frame."""
@@ -45,15 +53,19 @@ class SlidingWindow:
         self.count = 0
         self.stamps: list[int] = []
         self._config = config.window
+        self._feet = config.feet
         self._eyes = eyes
         self._imu = imu
         self._per_sigma = focal_length / config.window.pixel_sigma
         self._pre = Preintegrations.of(slots)
         self._samples: list[Array] = []
+        self._ways: list[Way | None] = []
+        self._way_slots = Ways.of(slots)
         self._resting = np.zeros(slots, dtype=np.bool_)
         self._keyframe = np.zeros(slots, dtype=np.bool_)
         self._tracked = np.zeros(slots, dtype=np.int64)  # features each frame came with
         self._elimination = Elimination.of(ROWS, slots)
+        self._residual = 1.0 / config.window.correlation  # sigma, root mean square of the observations' errors of late
         self._prior = Prior(slots)
         self._bias_walk = np.array([imu.gyro_random_walk, imu.accel_random_walk])
         rest = config.rest
@@ -86,6 +98,7 @@ class SlidingWindow:
         self._keyframe[0] = True
         self._resting[:] = False
         self._samples = [np.zeros((0, 7))]
+        self._ways = [None]
         self.stamps = [stamp_ns]
         self.count = 1
         self._factor = None
@@ -97,9 +110,17 @@ class SlidingWindow:
         self.landmarks.see(self.newest, tracks.identity, tracks.observation, tracks.seen)
 
     def add_frame(
-        self, stamp_ns: int, samples: Array, rate: Array, tracks: Tracks, *, resting: bool, noise_scale: float = 1.0
+        self,
+        stamp_ns: int,
+        samples: Array,
+        rate: Array,
+        tracks: Tracks,
+        *,
+        resting: bool,
+        noise_scale: float = 1.0,
+        way: Way | None = None,
     ) -> None:
-        """Append a frame, predicted by the inertial `samples` (n, 7) since the newest one."""
+        """Append a frame, predicted by the inertial `samples` (n, 7) since the newest; `way` is that of the feet."""
         self._make_room()
         k, frames = self.count, self.frames
         for array in frames[:-1]:
@@ -108,12 +129,14 @@ class SlidingWindow:
         self._resting[k] = resting
         self._keyframe[k] = False
         self._samples.append(samples)
+        self._ways.append(way)
         self.stamps.append(stamp_ns)
         self.count += 1
         self._prior.append_frame()
         begin(self._pre, k, frames.gyro_bias[k], frames.accel_bias[k])
         self._integrate(k, samples, noise_scale)
         self._predict(k)
+        self._enter_way(k)
         self.see(tracks)
 
     def optimise(self) -> tuple[bool, NDArray[np.int64]]:
@@ -132,7 +155,9 @@ class SlidingWindow:
             move_points(landmarks, self._elimination, count, step)
             if float(np.abs(step[: STATE * count].reshape(count, STATE)[:, :6]).max()) < CONVERGED:
                 break
-        dead = reject(frames, landmarks, self._eyes, count, self._per_sigma, config.gate)
+        dead, left = reject(frames, landmarks, self._eyes, count, self._per_sigma, config.gate)
+        if np.isfinite(left):
+            self._residual += RESIDUAL_MEMORY * (left - self._residual)
         self._forget_hopeless()
         return True, landmarks.identity[dead & (landmarks.identity >= 0)].copy()
 
@@ -156,6 +181,7 @@ class SlidingWindow:
         prior.add_to(frames, hessian, gradient)
         add_inertia(frames, prior.origin, self._pre, first, last, self._bias_walk, hessian, gradient)
         add_rest(frames, prior.origin, self._resting, first, last, self._rest_sigmas, hessian, gradient)
+        add_ways(frames, prior.origin, self._way_slots, first, last, self._feet.huber, hessian, gradient)
         add_reprojections(
             frames,
             prior.origin,
@@ -165,11 +191,21 @@ class SlidingWindow:
             self.count,
             self._per_sigma,
             self._config.huber,
+            self._trust(),
             self._elimination,
             hessian,
             gradient,
         )
         return hessian, gradient
+
+    def _trust(self) -> float:
+        """How much more, or less, than by their sigma the observations count: by how well they have agreed of late.
+
+        A followed corner is off by nearly the same in all the frames that see it, so that many sightings tell little
+        more than one, and on broken ground they are off by more.
+        """
+        sigma = min(max(self._config.correlation * self._residual, LEAST_SIGMA), MOST_SIGMA)
+        return float(1.0 / sigma**2)
 
     def _solve(self, hessian: Array, gradient: Array) -> Array | None:
         for damping in (0.0, 1e-9, 1e-6):
@@ -209,6 +245,9 @@ class SlidingWindow:
         self._integrate(slot, self._samples[slot + 1])
         self._pre.remove(slot + 1)
         self._samples[slot : slot + 2] = [np.concatenate(self._samples[slot : slot + 2])]
+        self._ways[slot : slot + 2] = [joined(self._ways[slot], self._ways[slot + 1], self._feet)]
+        self._way_slots.remove(slot + 1)
+        self._enter_way(slot)
         self._resting[slot + 1] &= self._resting[slot]
         self._close_gap(slot)
 
@@ -223,6 +262,8 @@ class SlidingWindow:
         self.landmarks.forget(leaving)
         self._pre.remove(0)
         self._samples.pop(0)
+        self._ways.pop(0)
+        self._way_slots.remove(0)
         self._close_gap(0)
 
     def _close_gap(self, slot: int) -> None:
@@ -233,6 +274,12 @@ class SlidingWindow:
             column[slot:-1] = column[slot + 1 :].copy()
         self.stamps.pop(slot)
         self.count -= 1
+
+    def _enter_way(self, slot: int) -> None:
+        way = self._ways[slot]
+        self._way_slots.variance[slot] = 0.0 if way is None else way.variance
+        if way is not None:
+            self._way_slots.displacement[slot] = way.displacement
 
     def _integrate(self, slot: int, samples: Array, noise_scale: float = 1.0) -> None:
         gyro, accel = self._imu.gyro_noise_density, self._imu.accel_noise_density
