@@ -20,7 +20,7 @@ from robot_agent.locomotion.leg_reach import LegReach
 from robot_agent.mapping import FirmFeet, TerrainMap
 from robot_agent.modes import ModeMachine, Permission
 from robot_agent.navigation import FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
-from robot_agent.odometry import NavigationState, StatePropagator, StereoInertialOdometry
+from robot_agent.odometry import FootContacts, NavigationState, StatePropagator, StereoInertialOdometry
 from robot_agent.orders import Orders
 from robot_agent.perception import FeltGround, Roughness, TerrainPerception
 from robot_agent.safety import SafetySupervisor, Verdict
@@ -65,6 +65,7 @@ class VisionPipeline:
     """Pictures and inertia in; pose, map and desired gait parameters out."""
 
     def __init__(self, robot: RobotDescription, initial: Pose, *, perceive_every: int = 2) -> None:
+        self._robot = robot
         calibration = StereoCalibration.of_robot(robot)
         self._odometry = StereoInertialOdometry(calibration=calibration, imu=robot.imu, initial=initial)
         self._perception = TerrainPerception(calibration)
@@ -89,7 +90,7 @@ class VisionPipeline:
 
     def step(self, frame: StereoFrame, imu: ImuBatch, legs: LegBatch) -> VisionTick:
         """One stereo pair with all IMU samples and readings of the legs since the previous one."""
-        odometry = self._odometry.step(frame, imu)
+        odometry = self._odometry.step(frame, imu, FootContacts.of(self._robot, legs))
         self._frames += 1
         self._map.remember(odometry)
         self._feel(legs, odometry)

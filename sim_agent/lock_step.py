@@ -6,11 +6,13 @@ period later, as they would from a process of its own; that leaves a second core
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 
 import cv2
 
+from robot_agent.felt_queue import Felt
 from robot_agent.loops import CONTROL_RATE, VisionLoop, WalkLoop
 from robot_agent.mapping import TerrainMap
 from robot_agent.pipeline import VisionTick, WalkTick
@@ -20,7 +22,7 @@ from sim_agent.worlds import World
 from weaver_shared import topics
 from weaver_shared.bus import MemoryBus
 from weaver_shared.clock import SimulatedClock
-from weaver_shared.messages import CommandName, Proprioception, TruthState
+from weaver_shared.messages import CommandName, Proprioception, StereoFrame, TruthState
 from weaver_shared.operator import Operator
 from weaver_shared.robots import RobotDescription
 
@@ -59,6 +61,8 @@ class LockStep:
         self._workers = ThreadPoolExecutor(1)
         self._seeing: Future[VisionTick] | None = None
         self._ticks = 0
+        self.on_picture: Callable[[StereoFrame, Felt], None] | None = None
+        """Sees every picture with what was felt up to it, for studies that look a second time."""
         self.operator = Operator(self.bus, robot_id, OPERATOR)
 
     def step(self) -> Moment:
@@ -78,6 +82,8 @@ class LockStep:
             scene = self._body.scene_state()
             frame = self._renderer.render(scene, frame_sequence(self.robot, scene.stamp_ns))
             felt = self._vision.take_felt(frame.stamp_ns)
+            if self.on_picture is not None:
+                self.on_picture(frame, felt)
             self._seeing = self._workers.submit(self._vision.process, frame, felt)
         self._ticks += 1
         truth = self._body.truth() if self._tell_truth else None

@@ -7,7 +7,7 @@ import json
 import math
 import sys
 import time
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +16,20 @@ import numpy as np
 from tqdm import tqdm
 
 from robot_agent.evaluation.asl_recording import AslRecording, open_asl
+from robot_agent.evaluation.contact_recording import (
+    ContactRecording,
+    is_contact_recording,
+    open_contacts,
+    read_contacts,
+)
+from robot_agent.evaluation.evo_metrics import evo_errors
+from robot_agent.evaluation.odometry_plots import draw
 from robot_agent.evaluation.track_recording import TrackRecording, open_tracks
-from robot_agent.evaluation.trajectory import Trajectory, evaluate, read_tum, write_tum
+from robot_agent.evaluation.trajectory import Trajectory, evaluate, path_length, read_tum, write_tum
 from robot_agent.odometry import RecordedTracks, StereoInertialOdometry, warm_up
-from weaver_shared.config.odometry import FailureConfig, OdometryConfig, WindowConfig
+from robot_agent.vision.camchain import read_camchain_on_imu
+from robot_agent.vision.camera import StereoCalibration
+from weaver_shared.config.odometry import FailureConfig, FeetConfig, OdometryConfig, StartConfig, WindowConfig
 from weaver_shared.errors import InputError
 from weaver_shared.messages import OdometryEstimate, OdometryQuality
 from weaver_shared.transforms import Pose
@@ -28,19 +38,26 @@ from weaver_shared.transforms import Pose
 def main(arguments: list[str]) -> int:
     options = _parser().parse_args(arguments)
     cv2.setNumThreads(1)
-    recording, odometry = _tracks(options.tracks) if options.tracks else _pictures(options.folder)
+    recording, odometry = _source(options)
     truth = read_tum(options.groundtruth) if options.groundtruth else None
     if truth is None and isinstance(recording, AslRecording):
         truth = recording.truth
     warm_up()
-    estimates, milliseconds = _run(recording, odometry, quiet=options.quiet)
+    estimates, milliseconds = _run(recording, odometry, options)
     trajectory = Trajectory.of([e.stamp_ns for e in estimates], [e.world_from_body for e in estimates])
-    if options.output:
+    if options.out:
         try:
-            write_tum(options.output, trajectory)
+            write_tum(options.out, trajectory)
         except OSError as error:
-            raise InputError(f"trajectory {options.output} can not be written: {error}") from error
-    report = _report(estimates, milliseconds, trajectory, truth)
+            raise InputError(f"trajectory {options.out} can not be written: {error}") from error
+    if options.plots:
+        draw(options.plots, estimates, trajectory, truth)
+    report = _report(estimates, milliseconds, trajectory, truth) | {
+        "contacts": _has_contacts(recording, options),
+        "gyro_bias_sigma": odometry.bias_sigmas[:3].tolist(),
+        "accel_bias_sigma": odometry.bias_sigmas[3:].tolist(),
+        "time_offset_s": odometry.time_offset,
+    }
     if options.json:
         print(json.dumps(report))
     else:
@@ -54,24 +71,77 @@ def _parser() -> argparse.ArgumentParser:
         description="Stereo-inertial odometry over a recording; lengths in m, angles in degrees.",
     )
     source = parser.add_mutually_exclusive_group(required=True)
-    source.add_argument("folder", metavar="DIR", type=Path, nargs="?", help="EuRoC/ASL folder: mav0/cam0, cam1, imu0")
+    source.add_argument(
+        "folder",
+        metavar="DIR",
+        type=Path,
+        nargs="?",
+        help="EuRoC/ASL folder (mav0/cam0, cam1, imu0), or one of inertia and feet alone (imu.csv, contacts.csv)",
+    )
     source.add_argument("--tracks", metavar="FILE", type=Path, help="CSV of one camera's feature tracks and inertia")
     parser.add_argument("--groundtruth", metavar="FILE", type=Path, help="true poses in TUM format, s and m")
-    parser.add_argument("--output", metavar="FILE", type=Path, help="write the trajectory in TUM format, s and m")
+    parser.add_argument(
+        "--calibration", metavar="FILE", type=Path, help="Kalibr's camchain.yaml with T_cam_imu, instead of DIR's own"
+    )
+    parser.add_argument(
+        "--contacts", action="store_true", help="also walk on the feet recorded in DIR's contacts.csv (body frame, m)"
+    )
+    parser.add_argument(
+        "--out", "--output", metavar="FILE", type=Path, help="write the trajectory in TUM format, s and m"
+    )
+    parser.add_argument("--plots", metavar="DIR", type=Path, help="write plots of the path (m) and its errors (mm)")
     parser.add_argument("--quiet", action="store_true", help="no progress bar")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     return parser
 
 
 SPARSE = OdometryConfig(
-    window=WindowConfig(keyframes=12, iterations=3, pixel_sigma=1.0, gate=8.0),
+    window=WindowConfig(keyframes=12, iterations=3, pixel_sigma=1.3, gate=6.0, parallax=0.01, correlation=0.0),
     failure=FailureConfig(good_features=15),
 )
 """For tracks of one eye, twenty a frame and 1.3 px noisy: more keyframes, and observations given up later."""
 
+STRIDING = OdometryConfig(
+    start=StartConfig(moving_velocity_sigma=1.0),
+    feet=FeetConfig(slip_way=0.01, slip_speed=0.3, reading_sigma=0.01, slip_density=0.03, longest_guess=1.0),
+)
+"""For a trotting quadruped whose feet are told ten times a second: two stand at a time, and further from where they
+are said to be."""
 
-def _pictures(folder: Path) -> tuple[AslRecording, StereoInertialOdometry]:
+
+Recording = AslRecording | TrackRecording | ContactRecording
+
+
+def _source(options: argparse.Namespace) -> tuple[Recording, StereoInertialOdometry]:
+    if options.tracks:
+        return _tracks(options.tracks)
+    if options.folder.is_dir() and is_contact_recording(options.folder) and not (options.folder / "mav0").is_dir():
+        return _feet(options.folder)
+    if options.contacts and not (options.folder / "contacts.csv").is_file():
+        raise InputError(f"{options.folder} has no contacts.csv: leave --contacts out to go by pictures and inertia")
+    return _pictures(options.folder, options.calibration)
+
+
+def _has_contacts(recording: Recording, options: argparse.Namespace) -> bool:
+    return isinstance(recording, ContactRecording) or bool(options.contacts)
+
+
+def _feet(folder: Path) -> tuple[ContactRecording, StereoInertialOdometry]:
+    recording = open_contacts(folder)
+    odometry = StereoInertialOdometry(
+        calibration=recording.calibration,
+        imu=recording.imu,
+        initial=Pose.identity(),
+        config=STRIDING,
+        body_from_imu=recording.body_from_imu,
+    )
+    return recording, odometry
+
+
+def _pictures(folder: Path, calibration: Path | None) -> tuple[AslRecording, StereoInertialOdometry]:
     recording = open_asl(folder)
+    if calibration is not None:
+        recording = replace(recording, calibration=_on_body(read_camchain_on_imu(calibration), recording))
     odometry = StereoInertialOdometry(
         calibration=recording.calibration,
         imu=recording.imu,
@@ -79,6 +149,14 @@ def _pictures(folder: Path) -> tuple[AslRecording, StereoInertialOdometry]:
         body_from_imu=recording.body_from_imu,
     )
     return recording, odometry
+
+
+def _on_body(pair: StereoCalibration, recording: AslRecording) -> StereoCalibration:
+    """A calibration on the IMU, carried to the recording's body."""
+    left, right = (
+        replace(eye, body_from_camera=recording.body_from_imu @ eye.body_from_camera) for eye in (pair.left, pair.right)
+    )
+    return replace(pair, left=left, right=right)
 
 
 def _tracks(path: Path) -> tuple[TrackRecording, StereoInertialOdometry]:
@@ -95,13 +173,21 @@ def _tracks(path: Path) -> tuple[TrackRecording, StereoInertialOdometry]:
 
 
 def _run(
-    recording: AslRecording | TrackRecording, odometry: StereoInertialOdometry, *, quiet: bool
+    recording: Recording, odometry: StereoInertialOdometry, options: argparse.Namespace
 ) -> tuple[list[OdometryEstimate], list[float]]:
     estimates: list[OdometryEstimate] = []
     milliseconds: list[float] = []
-    for frame, inertia in tqdm(recording, desc="odometry", unit=" frames", file=sys.stderr, disable=quiet):
+    felt = (
+        read_contacts(options.folder / "contacts.csv")
+        if isinstance(recording, AslRecording) and options.contacts
+        else None
+    )
+    for item in tqdm(recording, desc="odometry", unit=" frames", file=sys.stderr, disable=options.quiet):
+        frame, inertia, *rest = item
+        contacts = rest[0] if rest else felt
+        felt = None  # the stream keeps all there is for the pictures to come
         begin = time.process_time()
-        estimates.append(odometry.step(frame, inertia))
+        estimates.append(odometry.step(frame, inertia, contacts))
         milliseconds.append(1e3 * (time.process_time() - begin))
     return estimates, milliseconds
 
@@ -113,6 +199,9 @@ def _report(
     report: dict[str, Any] = {
         "frames": len(estimates),
         "good_frames": sum(e.quality is OdometryQuality.GOOD for e in estimates),
+        "lost_frames": sum(e.quality is OdometryQuality.LOST for e in estimates),
+        "estimated_path_length": path_length(trajectory.position),
+        "final_position": trajectory.position[-1].tolist(),
         "quality": str(last.quality),
         "reason": last.reason,
         "gyro_bias": last.gyro_bias.tolist(),
@@ -125,8 +214,11 @@ def _report(
         "ate_m": None,
         "drift_percent": None,
         "final_error": None,
+        "evo": None,
     }
     if truth is not None:
+        evo = evo_errors(trajectory, truth)
+        report["evo"] = asdict(evo) if evo is not None else None
         errors = asdict(evaluate(trajectory, truth))
         report |= {key: None if isinstance(x, float) and math.isnan(x) else x for key, x in errors.items()}
     return report

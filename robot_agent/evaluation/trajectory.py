@@ -94,6 +94,29 @@ def evaluate(estimated: Trajectory, truth: Trajectory, freedom: Freedom = "yaw")
     )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Compared:
+    """An estimated path laid over the true one, at the estimate's stamps that the truth covers."""
+
+    stamp_ns: NDArray[np.int64]  # (n,)
+    aligned: Array  # (n, 3) m
+    truth: Array  # (n, 3) m
+
+
+def errors_over_time(estimated: Trajectory, truth: Trajectory) -> Compared:
+    """Aligned about the vertical. Raises InputError when the truth covers fewer than two poses."""
+    indices, poses = _interpolate(truth, estimated.stamp_ns)
+    if len(indices) < 2:
+        raise InputError(f"the ground truth covers {len(indices)} of {len(estimated)} estimated poses; 2 are needed")
+    true_position = np.array([pose.position for pose in poses])
+    position = estimated.position[indices]
+    return Compared(
+        stamp_ns=estimated.stamp_ns[indices],
+        aligned=align(position, true_position).transform(position),
+        truth=true_position,
+    )
+
+
 def align(position: Array, truth: Array, freedom: Freedom = "yaw") -> Pose:
     """Least-squares pose that takes `position` (n, 3) to `truth` (n, 3): about the vertical, or freely (Umeyama 1991).
 

@@ -8,6 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weaver_shared.config.odometry import FeetConfig
+from weaver_shared.leg_batch import LegBatch
+from weaver_shared.robots import RobotDescription
+from weaver_shared.robots.forward_kinematics import feet_in_body
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -20,6 +23,17 @@ class FootContacts:
     stamp_ns: NDArray[np.int64]  # (n,)
     foot_in_body: Array  # (n, legs, 3) m
     touching: Mask  # (n, legs)
+
+    @staticmethod
+    def of(robot: RobotDescription, legs: LegBatch) -> FootContacts | None:
+        """What the robot's joints and contact switches say; None without a reading."""
+        if not len(legs.stamp_ns):
+            return None
+        return FootContacts(
+            stamp_ns=legs.stamp_ns,
+            foot_in_body=np.array([feet_in_body(robot, joints) for joints in legs.joint_position]),
+            touching=legs.foot_contact,
+        )
 
     @staticmethod
     def join(parts: list[FootContacts]) -> FootContacts:

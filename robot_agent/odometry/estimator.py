@@ -100,6 +100,11 @@ class StereoInertialOdometry:
         """Estimated correction to the calibrated camera to IMU time offset, s."""
         return float(self._window.frames.time_offset[0])
 
+    @property
+    def bias_sigmas(self) -> Array:
+        """(6,) standard deviations of the gyro (rad/s) and accelerometer bias (m/s^2)."""
+        return self._window.bias_sigmas() if self._started else np.full(6, np.inf)
+
     def step(self, frame: StereoFrame, imu: ImuBatch, contacts: FootContacts | None = None) -> OdometryEstimate:
         """The body's pose at the frame's stamp, from the pair and all inertial samples since the previous one.
 

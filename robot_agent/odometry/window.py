@@ -20,7 +20,7 @@ from robot_agent.odometry.reprojection_factor import exposure_views, reject
 from robot_agent.odometry.rest_factor import add_rest
 from robot_agent.odometry.tracks import Tracks
 from robot_agent.odometry.way_factor import Ways, add_ways
-from robot_agent.odometry.window_state import STATE, Frames, advance, unknowns
+from robot_agent.odometry.window_state import GYRO_BIAS, STATE, Frames, advance, unknowns
 from weaver_shared.config.odometry import OdometryConfig
 from weaver_shared.frames import GRAVITY
 from weaver_shared.robots.description import Imu
@@ -65,7 +65,9 @@ class SlidingWindow:
         self._keyframe = np.zeros(slots, dtype=np.bool_)
         self._tracked = np.zeros(slots, dtype=np.int64)  # features each frame came with
         self._elimination = Elimination.of(ROWS, slots)
-        self._residual = 1.0 / config.window.correlation  # sigma, root mean square of the observations' errors of late
+        self._residual = 1.0 / max(
+            config.window.correlation, 1.0
+        )  # sigma, root mean square of the observations' errors of late
         self._prior = Prior(slots)
         self._bias_walk = np.array([imu.gyro_random_walk, imu.accel_random_walk])
         rest = config.rest
@@ -171,6 +173,16 @@ class SlidingWindow:
         solved = cho_solve((self._factor, False), columns, check_finite=False)[place : place + 6]
         return np.asarray(0.5 * (solved + solved.T))
 
+    def bias_sigmas(self) -> Array:
+        """(6,) standard deviations of the newest gyro (rad/s) and accelerometer bias (m/s^2)."""
+        if self._factor is None or len(self._factor) != unknowns(self.count):
+            return np.asarray(1.0 / np.sqrt(np.diag(self._prior.hessian)[GYRO_BIAS:STATE]))
+        place = STATE * self.newest + GYRO_BIAS
+        columns = np.zeros((unknowns(self.count), 6))
+        columns[place : place + 6] = np.eye(6)
+        solved = cho_solve((self._factor, False), columns, check_finite=False)[place : place + 6]
+        return np.asarray(np.sqrt(np.diag(solved)))
+
     def _system(self, first: int, last: int, chosen: NDArray[np.bool_]) -> tuple[Array, Array]:
         """Hessian (upper triangle) and gradient of the prior, the inertia from `first` to `last`, and the `chosen`
         landmarks."""
@@ -204,6 +216,8 @@ class SlidingWindow:
         A followed corner is off by nearly the same in all the frames that see it, so that many sightings tell little
         more than one, and on broken ground they are off by more.
         """
+        if self._config.correlation == 0.0:
+            return 1.0
         sigma = min(max(self._config.correlation * self._residual, LEAST_SIGMA), MOST_SIGMA)
         return float(1.0 / sigma**2)
 

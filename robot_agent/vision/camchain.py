@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +32,19 @@ def read_camchain(path: Path) -> StereoCalibration:
     if len(chain.cameras) < 2:
         raise InputError(f"{path}: cam1 is missing; a stereo pair needs both cam0 and cam1")
     return StereoCalibration(left=chain.cameras[0], right=chain.cameras[1], time_offset=chain.time_offset)
+
+
+def read_camchain_on_imu(path: Path) -> StereoCalibration:
+    """The pair in the IMU's frame, with the time offset. Raises InputError when the file does not know the IMU."""
+    pair, chain = read_camchain(path), read_chain(path)
+    if chain.camera_from_imu is None:
+        raise InputError(f"{path}: cam0: T_cam_imu is missing; odometry needs the cameras' place on the IMU")
+    imu_from_left = chain.camera_from_imu.inverse()
+    return StereoCalibration(
+        left=replace(pair.left, body_from_camera=imu_from_left),
+        right=replace(pair.right, body_from_camera=imu_from_left @ pair.right.body_from_camera),
+        time_offset=chain.time_offset,
+    )
 
 
 def read_chain(path: Path) -> CameraChain:

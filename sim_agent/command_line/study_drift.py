@@ -13,7 +13,7 @@ import numpy as np
 from tqdm import tqdm
 
 from robot_agent.evaluation.consistency import band_of_mean
-from sim_agent.drift_study import PATTERNS, DriftRun, walk_pattern
+from sim_agent.drift_study import PATTERNS, DriftErrors, DriftRun, walk_pattern
 from weaver_shared.errors import InputError
 
 
@@ -30,6 +30,10 @@ def main(arguments: list[str]) -> int:
         return 0
     for world, figures in report["worlds"].items():
         low, high = figures["nees_band"]
+        for run in figures["runs"]:
+            print(f"{world:8s} seed {run['seed']}: drift {run['with_contacts']['drift_percent']:.3f} %")
+        alone = figures["without_contacts"]
+        print(f"{world:8s} without contacts: drift {alone['drift_percent']:.3f} %, NEES {alone['nees']:.1f}")
         print(
             f"{world:8s} drift {figures['drift_percent']:.3f} % (worst {figures['worst_drift_percent']:.3f}), "
             f"final error {figures['final_error']:.4f} m, ATE {figures['ate_m']:.4f} m, "
@@ -51,15 +55,21 @@ def _run(worlds: list[str], options: argparse.Namespace) -> dict[str, list[Drift
 
 
 def _summary(runs: list[DriftRun]) -> dict[str, Any]:
-    """Means over the runs, and every run."""
-    return {
-        "drift_percent": float(np.mean([run.drift_percent for run in runs])),
-        "worst_drift_percent": max(run.drift_percent for run in runs),
-        "final_error": float(np.mean([run.final_error for run in runs])),
-        "ate_m": float(np.mean([run.ate_m for run in runs])),
-        "nees": float(np.mean([run.normalised_error for run in runs])),
+    """Means over the runs with contacts, the same without, and every run."""
+    return _means([run.with_contacts for run in runs]) | {
         "nees_band": band_of_mean(len(runs)),
+        "without_contacts": _means([run.without_contacts for run in runs]),
         "runs": [run.as_dict() for run in runs],
+    }
+
+
+def _means(errors: list[DriftErrors]) -> dict[str, Any]:
+    return {
+        "drift_percent": float(np.mean([run.drift_percent for run in errors])),
+        "worst_drift_percent": max(run.drift_percent for run in errors),
+        "final_error": float(np.mean([run.final_error for run in errors])),
+        "ate_m": float(np.mean([run.ate_m for run in errors])),
+        "nees": float(np.mean([run.normalised_error for run in errors])),
     }
 
 
@@ -79,7 +89,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--worlds", default="flat,testbed", help="comma-separated (default flat,testbed)")
     parser.add_argument("--runs", type=int, default=5, help="walks a world, each with its own seed (default 5)")
     parser.add_argument("--seed", type=int, default=1, help="of the first walk (default 1)")
-    parser.add_argument("--metres", type=float, help="shrink the pattern to this path, m (default: 21.1 and 8.4)")
+    parser.add_argument("--metres", type=float, help="shrink the pattern to this path, m (default: 21.1 and 20.3)")
     parser.add_argument("--jobs", type=int, default=1, help="walks at a time, a core each (default 1)")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     return parser

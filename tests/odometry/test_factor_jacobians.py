@@ -10,6 +10,7 @@ from robot_agent.odometry.landmarks import Eyes, Landmarks
 from robot_agent.odometry.preintegration import Preintegrations, begin, integrate
 from robot_agent.odometry.reprojection_factor import exposure_views, observation_rows, whitened_error
 from robot_agent.odometry.rest_factor import rest_jacobian, rest_residual
+from robot_agent.odometry.way_factor import Ways, way_jacobian, way_residual
 from robot_agent.odometry.window_state import STATE, Frames, advance, unknowns
 from weaver_shared.transforms import rotation_from_rpy
 
@@ -56,6 +57,13 @@ def test_rest_factor() -> None:
     frames = _two_frames()
     numeric = _numeric(frames, lambda f: rest_residual(f, 1))[:, : 2 * STATE]
     assert rest_jacobian(frames, 1) == pytest.approx(numeric, abs=1e-6)
+
+
+def test_way_factor() -> None:
+    frames, ways = _two_frames(), Ways.of(3)
+    ways.displacement[1] = [0.02, -0.01, 0.003]
+    numeric = _numeric(frames, lambda f: way_residual(f, ways, 1))[:, : 2 * STATE]
+    assert way_jacobian(frames, 1) == pytest.approx(numeric, abs=1e-6)
 
 
 @pytest.mark.parametrize("eye", [0, 1])

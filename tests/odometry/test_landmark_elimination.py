@@ -9,7 +9,7 @@ from robot_agent.odometry.reprojection_factor import exposure_views, observation
 from robot_agent.odometry.window_state import STATE, Frames, unknowns
 from weaver_shared.transforms import rotation_from_rpy
 
-FRAMES, POINTS, PER_SIGMA, HUBER = 3, 7, 400.0, 1.0
+FRAMES, POINTS, PER_SIGMA, HUBER, TRUST = 3, 7, 400.0, 1.0, 0.7
 
 
 def _scene(eyes: Eyes) -> tuple[Frames, Landmarks]:
@@ -70,12 +70,13 @@ def test_the_eliminated_system_and_the_points_steps_are_those_of_the_whole(eyes:
     elimination = Elimination.of(POINTS + 1, FRAMES)
     chosen = np.ones(POINTS + 1, dtype=np.bool_)
     cost = add_reprojections(
-        frames, frames, landmarks, chosen, eyes, FRAMES, PER_SIGMA, HUBER, elimination, hessian, gradient
+        frames, frames, landmarks, chosen, eyes, FRAMES, PER_SIGMA, HUBER, TRUST, elimination, hessian, gradient
     )
     scale = float(np.abs(expected).max())
-    assert cost == pytest.approx(whole_cost)
-    assert hessian == pytest.approx(np.triu(expected), abs=1e-6 * scale)
-    assert gradient == pytest.approx(pull[:size] - whole[:size, size:] @ own @ pull[size:], rel=1e-6, abs=1e-3)
+    assert cost == pytest.approx(TRUST * whole_cost)
+    assert hessian == pytest.approx(TRUST * np.triu(expected), abs=1e-6 * scale)
+    reduced = pull[:size] - whole[:size, size:] @ own @ pull[size:]
+    assert gradient == pytest.approx(TRUST * reduced, rel=1e-6, abs=1e-3)
 
     step = np.random.default_rng(8).normal(0.0, 1e-3, size)
     before = landmarks.point.copy()
@@ -94,7 +95,9 @@ def test_a_landmark_behind_every_eye_says_nothing(eyes: Eyes) -> None:
     hessian, gradient = np.zeros((unknowns(FRAMES),) * 2), np.zeros(unknowns(FRAMES))
     elimination = Elimination.of(POINTS + 1, FRAMES)
     chosen = np.ones(POINTS + 1, dtype=np.bool_)
-    add_reprojections(frames, frames, landmarks, chosen, eyes, FRAMES, PER_SIGMA, HUBER, elimination, hessian, gradient)
+    add_reprojections(
+        frames, frames, landmarks, chosen, eyes, FRAMES, PER_SIGMA, HUBER, TRUST, elimination, hessian, gradient
+    )
     move_points(landmarks, elimination, FRAMES, np.ones(unknowns(FRAMES)))
     assert not hessian.any()
     assert not gradient.any()

@@ -40,7 +40,7 @@ class WindowConfig(_Model):
     keyframe_interval: Positive = 5.0  # s, the longest stretch of inertia between keyframes
     iterations: Count = 2
     pixel_sigma: Positive = 0.5
-    correlation: Positive = 4.0  # times the errors left after solving that an observation counts for
+    correlation: Annotated[float, Field(ge=0.0)] = 4.0  # sigma per error left after solving, 0: pixel_sigma whatever is
     huber: Positive = 1.0  # sigma
     gate: Positive = 4.5  # sigma, beyond it an observation is wrong
     parallax: Positive = 0.02  # rad between two rays before they make a point
