@@ -96,14 +96,22 @@ def _parser() -> argparse.ArgumentParser:
 
 
 SPARSE = OdometryConfig(
-    window=WindowConfig(keyframes=12, iterations=3, pixel_sigma=1.3, gate=6.0, parallax=0.01, correlation=0.0),
+    window=WindowConfig(keyframes=12, iterations=3, pixel_sigma=1.2, gate=8.0, parallax=0.01, correlation=0.0),
     failure=FailureConfig(good_features=15),
 )
 """For tracks of one eye, twenty a frame and 1.3 px noisy: more keyframes, and observations given up later."""
 
 STRIDING = OdometryConfig(
     start=StartConfig(moving_velocity_sigma=1.0),
-    feet=FeetConfig(slip_way=0.01, slip_speed=0.3, reading_sigma=0.01, slip_density=0.03, longest_guess=1.0),
+    feet=FeetConfig(
+        settling=0.0,
+        slip_way=0.01,
+        slip_speed=0.3,
+        reading_sigma=0.01,
+        slip_density=0.03,
+        longest_guess=1.0,
+        guess_speed=0.3,
+    ),
 )
 """For a trotting quadruped whose feet are told ten times a second: two stand at a time, and further from where they
 are said to be."""

@@ -26,7 +26,7 @@ class EvoErrors:
 def evo_errors(estimated: Trajectory, truth: Trajectory) -> EvoErrors | None:
     """None when the library is not installed (extra `study`)."""
     try:
-        from evo.core import metrics, sync
+        from evo.core import filters, metrics, sync
         from evo.core.geometry import GeometryException
         from evo.core.trajectory import PoseTrajectory3D
     except ImportError:
@@ -39,12 +39,12 @@ def evo_errors(estimated: Trajectory, truth: Trajectory) -> EvoErrors | None:
         rpe = metrics.RPE(relation, delta=STRETCH, delta_unit=metrics.Unit.meters, all_pairs=True)
         try:
             rpe.process_data((reference, estimate))
-        except metrics.MetricsException:
+        except (metrics.MetricsException, filters.FilterException):
             return None
         return float(rpe.get_statistic(metrics.StatisticsType.rmse))
 
     try:
-        reference, estimate = sync.associate_trajectories(converted(truth), converted(estimated), SAME_INSTANT)
+        reference, estimate = sync.associate_trajectories(converted(truth), converted(estimated), max_diff=SAME_INSTANT)
     except sync.SyncException:
         return EvoErrors(ate_rmse=None, ate_max=None, rpe_rmse=None, rpe_rotation_deg=None)
     rpe = relative(metrics.PoseRelation.translation_part)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
@@ -11,8 +12,8 @@ from numpy.typing import NDArray
 from robot_agent.odometry.contacts import ContactStream, FootContacts
 from robot_agent.odometry.front_end import FrontEnd
 from robot_agent.odometry.imu_stream import ImuStream, Inertia
-from robot_agent.odometry.landmarks import Eyes
-from robot_agent.odometry.leg_way import Way, joined, way_of
+from robot_agent.odometry.landmarks import RIGHT, Eyes
+from robot_agent.odometry.leg_way import Way, guessed_way, joined, way_of
 from robot_agent.odometry.propagation import propagate
 from robot_agent.odometry.start import Beginning, begin_again, begin_at_rest, begin_in_motion, is_still, levelled
 from robot_agent.odometry.tracks import Tracks
@@ -83,7 +84,10 @@ class StereoInertialOdometry:
         self._stamp: int | None = None
         self._started = False
         self._lost = False
-        self._on_feet = False  # the newest frame's place is also known by the feet
+        self._stereo = front_end is None  # tracks recorded by others may be of one eye
+        self._on_feet = False  # the feet tell the way as well
+        self._stepping = False  # and did so since the last picture
+        self._footless = 0.0  # s that neither pictures nor feet have told anything
         self._waited = 0.0
         self._history: deque[Array] = deque()
         self._flows: deque[float] = deque(maxlen=100)  # px, motion seen in the last pictures
@@ -110,6 +114,9 @@ class StereoInertialOdometry:
 
         `contacts`, where the robot feels its feet, say how far it went over them; without pictures they go on alone.
         """
+        jump = self._jump_back(frame)
+        if jump:
+            self._forget_time()
         self._stream.add(imu)
         if contacts is not None:
             self._feet.add(contacts)
@@ -118,10 +125,35 @@ class StereoInertialOdometry:
         self._stamp = frame.stamp_ns
         end_ns = frame.stamp_ns + self._time_offset_ns
         inertia = self._stream.take_until(end_ns)
+        if inertia.gap > self._config.failure.clock_jump:
+            jump, inertia = inertia.gap, _nothing(inertia)
+            self._forget_time()
+            self._stream.take_until(end_ns)  # from here on time counts again
+            self._stamp = frame.stamp_ns
+        if jump and self._started:
+            self._begin_again(self._front_end.step(frame, Pose.identity()))
+            return self._report(
+                OdometryQuality.DEGRADED, f"the clock jumped by {jump:+.1f} s; began again where it was", 0
+            )
         self._walk_on(inertia, end_ns)
         self._rate = inertia.rate
         self._remember(inertia)
         return self._track(frame, inertia) if self._started else self._start(frame, inertia)
+
+    def _jump_back(self, frame: StereoFrame) -> float:
+        """Seconds (negative) by which a picture's clock is behind the last one's, if that is more than disorder."""
+        if self._stamp is None:
+            return 0.0
+        back = (frame.stamp_ns - self._stamp) * 1e-9
+        return back if back < -self._config.failure.clock_jump else 0.0
+
+    def _forget_time(self) -> None:
+        """What was felt belongs to another clock."""
+        self._stream = ImuStream(self._config.failure)
+        self._feet = ContactStream(self._config.feet)
+        self._history.clear()
+        self._stamp = None
+        self._clear_pending()
 
     # ---- beginning -------------------------------------------------------------------------------------------------
 
@@ -187,10 +219,10 @@ class StereoInertialOdometry:
         tracks = self._front_end.step(frame, left_from_previous)
         resting = self._is_resting(tracks, inertia)
         blind = tracks.number < self._config.failure.least_features
-        if self._lost and not blind:
+        if self._lost and (self._stepping or not blind):
             self._begin_again(tracks)
             return self._report(OdometryQuality.DEGRADED, "began again after being lost", tracks.number)
-        if blind and not resting and self._pending_way is None:
+        if blind and not resting and not self._may_go_on_feet():
             return self._report_blind(tracks)
         try:
             self._settle(tracks, resting)
@@ -226,7 +258,7 @@ class StereoInertialOdometry:
         )
         self._velocity = velocity.copy()
         self._lost = False
-        self._on_feet = self._pending_way is not None and not resting
+        self._on_feet = not resting and (self._stepping or self._on_feet)
         self._clear_pending()
 
     def _predict(self) -> None:
@@ -269,7 +301,17 @@ class StereoInertialOdometry:
         way = way_of(
             self._feet.take_until(end_ns), inertia.samples, end_ns, bias, self._imu_from_body, self._config.feet
         )
+        self._stepping = way is not None
+        self._footless = 0.0 if self._stepping else self._footless + float(inertia.samples[:, 0].sum())
+        if way is None and self._may_go_on_feet() and len(inertia.samples):
+            way = guessed_way(
+                self._world_from_imu.rotation.T @ self._velocity, inertia.samples, bias, self._config.feet
+            )
         self._pending_way = joined(self._pending_way, way, self._config.feet) if self._pending else way
+
+    def _may_go_on_feet(self) -> bool:
+        """Do the feet tell the way, or have they until a moment ago? Between two steps inertia bridges the gap."""
+        return self._stepping or (self._on_feet and self._footless < self._config.feet.longest_guess)
 
     def _clear_pending(self) -> None:
         self._pending = []
@@ -307,6 +349,9 @@ class StereoInertialOdometry:
 
     def _judge(self, tracks: Tracks, inertia: Inertia) -> tuple[OdometryQuality, str]:
         reasons = [problem for problem in (tracks.problem, inertia.problem) if problem]
+        matched = float(((tracks.seen & RIGHT) > 0).mean()) if tracks.number else 1.0
+        if not tracks.problem and self._stereo and matched < self._config.failure.least_matched:
+            reasons.append(f"the eyes agree on {100.0 * matched:.0f} % of the features: is their calibration right?")
         if tracks.number < self._config.failure.least_features:
             reasons.append("on inertia and feet" if self._on_feet else "standing without sight")
         elif tracks.number < self._config.failure.good_features:
@@ -356,6 +401,10 @@ class StereoInertialOdometry:
             reason=reason,
             tracked_features=features,
         )
+
+
+def _nothing(inertia: Inertia) -> Inertia:
+    return replace(inertia, samples=np.zeros((0, 7)), trusted=False)
 
 
 def _direction(samples: Array) -> Array:

@@ -21,6 +21,7 @@ class Inertia:
     rate: Array  # (3,) angular velocity in imu at the end, bias included
     problem: str  # what is wrong with the samples; empty if nothing
     trusted: bool  # False: so much is missing that the samples are a guess
+    gap: float = 0.0  # s, the longest stretch without a sample
 
 
 def usable(batch: ImuBatch, config: FailureConfig) -> NDArray[np.bool_]:
@@ -84,4 +85,5 @@ class ImuStream:
             rate=np.array(self._last[:3]),
             problem=problem,
             trusted=gap <= self._config.imu_gap and bool(known.any()),
+            gap=gap,
         )

@@ -67,6 +67,17 @@ def way_of(
     )
 
 
+def guessed_way(velocity_in_imu: Array, samples: Array, gyro_bias: Array, config: FeetConfig) -> Way:
+    """On at the same speed through a moment without feet, so that the ways before and after it stay joined."""
+    duration = float(samples[:, 0].sum())
+    return Way(
+        displacement=velocity_in_imu * duration,
+        variance=config.reading_sigma**2 + (config.guess_speed * duration) ** 2,
+        turn=_turns_at(samples, gyro_bias, np.array([duration]))[0],
+        slipping=False,
+    )
+
+
 def joined(first: Way | None, second: Way | None, config: FeetConfig) -> Way | None:
     """One way after the other: what the readings in the middle were wrong by cancels."""
     if first is None or second is None:

@@ -8,11 +8,12 @@ import pytest
 from walking_motion import FRAME_NS, Walk, inertia
 
 from robot_agent.evaluation.textured_ground import TexturedGround
-from robot_agent.odometry import StereoInertialOdometry
+from robot_agent.odometry import FootContacts, StereoInertialOdometry
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.odometry import FailureConfig, OdometryConfig
 from weaver_shared.messages import ImuBatch, OdometryEstimate, OdometryQuality, StereoFrame
 from weaver_shared.robots import RobotDescription
+from weaver_shared.transforms import Pose, rotation_exp
 
 FRAMES = 90
 GOOD, DEGRADED, LOST = OdometryQuality.GOOD, OdometryQuality.DEGRADED, OdometryQuality.LOST
@@ -140,6 +141,93 @@ def test_unusable_inertia_is_left_out_and_named(
         assert "inertial samples" in estimates[n].reason
     assert estimates[-1].quality is GOOD
     assert _error(estimates[-1]) < 0.03
+
+
+def test_a_gap_in_the_inertia_is_named_and_bridged(
+    recording: Recording, run: Callable[..., list[OdometryEstimate]]
+) -> None:
+    estimates = run([(f, ImuBatch.empty() if 50 <= n < 53 else batch) for n, (f, batch) in enumerate(recording)])
+    assert estimates[52].quality is DEGRADED
+    assert "no inertial samples for" in estimates[52].reason
+    assert estimates[-1].quality is GOOD
+    assert _error(estimates[-1]) < 0.03
+
+
+def test_a_saturated_sensor_is_named_and_survived(
+    recording: Recording, run: Callable[..., list[OdometryEstimate]]
+) -> None:
+    spoiled: Recording = []
+    for n, (frame, batch) in enumerate(recording):
+        rate = batch.angular_velocity_in_imu.copy()
+        if n == 55:
+            rate[2:8, 1] = 20.0
+        spoiled.append((frame, replace(batch, angular_velocity_in_imu=rate)))
+    estimates = run(spoiled)
+    assert estimates[55].quality is DEGRADED
+    assert "6 inertial samples unusable" in estimates[55].reason
+    assert estimates[-1].quality is GOOD
+    assert _error(estimates[-1]) < 0.03
+
+
+@pytest.mark.parametrize("seconds", [100, -2])
+def test_a_clock_that_jumps_is_named_and_the_world_is_kept(
+    recording: Recording, run: Callable[..., list[OdometryEstimate]], seconds: int
+) -> None:
+    shift = seconds * 1_000_000_000
+    jumped = [
+        (replace(f, stamp_ns=f.stamp_ns + shift), replace(batch, stamp_ns=batch.stamp_ns + shift))
+        if n >= 60
+        else (f, batch)
+        for n, (f, batch) in enumerate(recording)
+    ]
+    estimates = run(jumped)
+    assert estimates[60].quality is DEGRADED
+    assert "the clock jumped by" in estimates[60].reason
+    assert estimates[-1].quality is GOOD
+    steps = np.linalg.norm(np.diff([e.position_in_world for e in estimates], axis=0), axis=1)
+    assert steps.max() < 0.06
+    assert np.linalg.norm(estimates[-1].position_in_world - Walk().body(FRAMES * FRAME_NS * 1e-9).position) < 0.05
+
+
+def test_pictures_black_from_the_beginning_are_never_called_good(
+    recording: Recording, run: Callable[..., list[OdometryEstimate]]
+) -> None:
+    estimates = run(_spoiled(recording, 0, FRAMES, lambda f: replace(f, left=BLACK, right=BLACK)))
+    assert GOOD not in {e.quality for e in estimates}
+    assert "black" in estimates[40].reason
+
+
+def test_eyes_that_do_not_fit_their_calibration_are_named(
+    recording: Recording, robot: RobotDescription, calibration: StereoCalibration
+) -> None:
+    right = calibration.right
+    nodded = replace(
+        right,
+        body_from_camera=right.body_from_camera @ Pose(rotation=rotation_exp([0.05, 0.0, 0.0]), position=np.zeros(3)),
+    )
+    odometry = StereoInertialOdometry(
+        calibration=replace(calibration, right=nodded), imu=robot.imu, initial=Walk().body(0.0)
+    )
+    estimates = [odometry.step(frame, batch) for frame, batch in recording[:25]]
+    assert estimates[-1].quality is DEGRADED
+    assert "is their calibration right?" in estimates[-1].reason
+
+
+def test_feet_carry_on_in_long_darkness_and_pictures_take_over_again(
+    recording: Recording, robot: RobotDescription, calibration: StereoCalibration
+) -> None:
+    odometry = StereoInertialOdometry(calibration=calibration, imu=robot.imu, initial=Walk().body(0.0))
+    footholds = np.array([[0.3, 0.3, 0.0], [0.3, -0.3, 0.0], [-0.2, 0.3, 0.0]])
+    estimates = []
+    for n, (frame, batch) in enumerate(_spoiled(recording, 40, 80, lambda f: replace(f, left=BLACK, right=BLACK))):
+        stamps = np.arange(n * FRAME_NS, (n + 1) * FRAME_NS + 1, 10_000_000, dtype=np.int64)[int(n > 0) :]
+        feet = np.array([Walk().body(float(stamp) * 1e-9).inverse().transform(footholds) for stamp in stamps])
+        contacts = FootContacts(stamp_ns=stamps, foot_in_body=feet, touching=np.ones((len(stamps), 3), dtype=np.bool_))
+        estimates.append(odometry.step(frame, batch, contacts))
+    assert all(e.quality is DEGRADED and "on inertia and feet" in e.reason for e in estimates[41:80])
+    assert _error(estimates[79]) < 0.01
+    assert estimates[-1].quality is GOOD
+    assert _error(estimates[-1]) < 0.012
 
 
 def test_a_start_in_motion_still_finds_gravity(

@@ -48,7 +48,7 @@ def test_feet_that_stand_give_the_way_and_the_turn() -> None:
 
 def test_a_foot_that_slips_is_left_out() -> None:
     contacts = _contacts()
-    contacts.foot_in_body[5:, 2] += [0.03, 0.0, 0.0]
+    contacts.foot_in_body[5:, 2] = _contacts(FOOTHOLDS + np.array([0.03, 0.0, 0.0])).foot_in_body[5:, 2]
     way = _way(contacts)
     assert way is not None
     assert way.slipping

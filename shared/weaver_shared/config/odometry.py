@@ -93,6 +93,8 @@ class FailureConfig(_Model):
     least_features: Count = 8  # fewer than this: the frame is blind
     blind_duration: Positive = 3.0  # s of inertia alone before the pose counts as lost
     imu_gap: Positive = 0.05  # s between two samples
+    clock_jump: Positive = 1.0  # s back, or forth without any sample, after which the clock is another one
+    least_matched: Annotated[float, Field(ge=0.0, le=1.0)] = 0.2  # of the features in the other eye, or they disagree
     greatest_speed: Positive = 5.0  # m/s
     greatest_gyro: Positive = 20.0  # rad/s
     greatest_accel: Positive = 100.0  # m/s^2
