@@ -20,7 +20,7 @@ from robot_agent.locomotion.leg_reach import LegReach
 from robot_agent.mapping import FirmFeet, TerrainMap
 from robot_agent.modes import ModeMachine, Permission
 from robot_agent.navigation import FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
-from robot_agent.odometry import FootContacts, NavigationState, StatePropagator, StereoInertialOdometry
+from robot_agent.odometry import NavigationState, StatePropagator, StereoInertialOdometry
 from robot_agent.orders import Orders
 from robot_agent.perception import FeltGround, Roughness, TerrainPerception
 from robot_agent.safety import SafetySupervisor, Verdict
@@ -28,6 +28,7 @@ from robot_agent.vigilance import Vigilance
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.navigation import RouteConfig
 from weaver_shared.config.perception import PerceptionConfig
+from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.leg_batch import LegBatch
 from weaver_shared.messages import (
     AdaptationReport,

@@ -9,12 +9,13 @@ import numpy as np
 
 from robot_agent.evaluation.trajectory import Trajectory, same_heading
 from robot_agent.felt_queue import Felt
-from robot_agent.odometry import FootContacts, StereoInertialOdometry
+from robot_agent.odometry import StereoInertialOdometry
 from robot_agent.vision.camera import StereoCalibration
 from sim_agent.drift_study import pattern_of, true_trajectory, walk_waypoints
 from sim_agent.lock_step import LockStep
 from sim_agent.picture_troubles import BareGround, Moment, PasserBy, Trouble, blurred, dark, dropped, one_eyed
 from sim_agent.worlds import make_world
+from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.leg_batch import LegBatch
 from weaver_shared.messages import ImuBatch, OdometryEstimate, OdometryQuality, StereoFrame, TruthState
 from weaver_shared.robots import RobotDescription, load_robot

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from robot_agent.evaluation.asl_recording import inertia_up_to, interval_means
 from robot_agent.evaluation.trajectory import nanoseconds
-from robot_agent.odometry import FootContacts
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.errors import InputError
+from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.messages import ImuBatch, StereoFrame
 from weaver_shared.robots import load_robot
 from weaver_shared.robots.description import Imu

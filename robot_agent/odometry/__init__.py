@@ -1,9 +1,8 @@
 """Stereo-inertial odometry: a keyframe sliding window over corners and preintegrated inertia (ICRA'17 III-A)."""
 
-from robot_agent.odometry.contacts import FootContacts
 from robot_agent.odometry.estimator import StereoInertialOdometry
 from robot_agent.odometry.propagator import NavigationState, StatePropagator
 from robot_agent.odometry.recorded_tracks import RecordedTracks
 from robot_agent.odometry.warming import warm_up
 
-__all__ = ["FootContacts", "NavigationState", "RecordedTracks", "StatePropagator", "StereoInertialOdometry", "warm_up"]
+__all__ = ["NavigationState", "RecordedTracks", "StatePropagator", "StereoInertialOdometry", "warm_up"]

@@ -2,46 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from weaver_shared.config.odometry import FeetConfig
-from weaver_shared.leg_batch import LegBatch
-from weaver_shared.robots import RobotDescription
-from weaver_shared.robots.forward_kinematics import feet_in_body
+from weaver_shared.foot_contacts import FootContacts
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FootContacts:
-    """Where the feet were by the joints, and which felt the ground, at some instants."""
-
-    stamp_ns: NDArray[np.int64]  # (n,)
-    foot_in_body: Array  # (n, legs, 3) m
-    touching: Mask  # (n, legs)
-
-    @staticmethod
-    def of(robot: RobotDescription, legs: LegBatch) -> FootContacts | None:
-        """What the robot's joints and contact switches say; None without a reading."""
-        if not len(legs.stamp_ns):
-            return None
-        return FootContacts(
-            stamp_ns=legs.stamp_ns,
-            foot_in_body=np.array([feet_in_body(robot, joints) for joints in legs.joint_position]),
-            touching=legs.foot_contact,
-        )
-
-    @staticmethod
-    def join(parts: list[FootContacts]) -> FootContacts:
-        return FootContacts(
-            stamp_ns=np.concatenate([part.stamp_ns for part in parts]),
-            foot_in_body=np.concatenate([part.foot_in_body for part in parts]),
-            touching=np.concatenate([part.touching for part in parts]),
-        )
 
 
 class ContactStream:

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.odometry.contacts import ContactStream, FootContacts
+from robot_agent.odometry.contacts import ContactStream
 from robot_agent.odometry.front_end import FrontEnd
 from robot_agent.odometry.imu_stream import ImuStream, Inertia
 from robot_agent.odometry.landmarks import RIGHT, Eyes
@@ -20,6 +20,7 @@ from robot_agent.odometry.tracks import Tracks
 from robot_agent.odometry.window import SlidingWindow
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.odometry import OdometryConfig
+from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.messages import ImuBatch, OdometryEstimate, OdometryQuality, StereoFrame
 from weaver_shared.robots.description import Imu
 from weaver_shared.transforms import Pose, rotation_z, skew, wxyz_from_rotation

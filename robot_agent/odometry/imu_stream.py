@@ -65,6 +65,7 @@ class ImuStream:
         bad, self._bad = self._bad, 0
         keep_from = first_after if split else first_after + 1
         self._rows, self._stamps = self._rows[keep_from:], self._stamps[keep_from:]
+        missing = begin is not None and len(ends) == 0
         if begin is None:
             begin = int(ends[0]) if len(ends) else stamp_ns
         if len(taken):
@@ -76,7 +77,7 @@ class ImuStream:
         samples = np.column_stack([durations, taken])[known & (durations > 0.0)]
         gap = float(durations.max(initial=0.0))
         problem = ""
-        if gap > self._config.imu_gap:
+        if gap > self._config.imu_gap or missing:
             problem = f"no inertial samples for {gap:.2f} s"
         elif bad:
             problem = f"{bad} inertial samples unusable"
@@ -84,6 +85,6 @@ class ImuStream:
             samples=samples,
             rate=np.array(self._last[:3]),
             problem=problem,
-            trusted=gap <= self._config.imu_gap and bool(known.any()),
+            trusted=gap <= self._config.imu_gap and not missing and bool(known.any()),
             gap=gap,
         )

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.odometry.compiled import compiled
-from robot_agent.odometry.contacts import FootContacts
 from robot_agent.odometry.rotations import exponential, orthonormal
 from weaver_shared.config.odometry import FeetConfig
+from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.transforms import Pose
 
 Array = NDArray[np.float64]

@@ -59,6 +59,7 @@ class SlidingWindow:
         self._per_sigma = focal_length / config.window.pixel_sigma
         self._pre = Preintegrations.of(slots)
         self._samples: list[Array] = []
+        self._noise_scales: list[float] = []  # of the samples: times the sensor's own noise
         self._ways: list[Way | None] = []
         self._way_slots = Ways.of(slots)
         self._resting = np.zeros(slots, dtype=np.bool_)
@@ -100,6 +101,7 @@ class SlidingWindow:
         self._keyframe[0] = True
         self._resting[:] = False
         self._samples = [np.zeros((0, 7))]
+        self._noise_scales = [1.0]
         self._ways = [None]
         self.stamps = [stamp_ns]
         self.count = 1
@@ -131,6 +133,7 @@ class SlidingWindow:
         self._resting[k] = resting
         self._keyframe[k] = False
         self._samples.append(samples)
+        self._noise_scales.append(noise_scale)
         self._ways.append(way)
         self.stamps.append(stamp_ns)
         self.count += 1
@@ -256,7 +259,8 @@ class SlidingWindow:
 
     def _drop(self, slot: int) -> None:
         """Leave a frame out, its inertia joined to the next one's."""
-        self._integrate(slot, self._samples[slot + 1])
+        self._integrate(slot, self._samples[slot + 1], self._noise_scales[slot + 1])
+        self._noise_scales[slot : slot + 2] = [max(self._noise_scales[slot : slot + 2])]
         self._pre.remove(slot + 1)
         self._samples[slot : slot + 2] = [np.concatenate(self._samples[slot : slot + 2])]
         self._ways[slot : slot + 2] = [joined(self._ways[slot], self._ways[slot + 1], self._feet)]
@@ -276,6 +280,7 @@ class SlidingWindow:
         self.landmarks.forget(leaving)
         self._pre.remove(0)
         self._samples.pop(0)
+        self._noise_scales.pop(0)
         self._ways.pop(0)
         self._way_slots.remove(0)
         self._close_gap(0)
@@ -305,7 +310,7 @@ class SlidingWindow:
             gyro_moved = np.abs(frames.gyro_bias[k - 1] - pre.gyro_bias[k]).max() > GYRO_BIAS_DRIFT
             if gyro_moved or np.abs(frames.accel_bias[k - 1] - pre.accel_bias[k]).max() > ACCEL_BIAS_DRIFT:
                 begin(pre, k, frames.gyro_bias[k - 1], frames.accel_bias[k - 1])
-                self._integrate(k, self._samples[k])
+                self._integrate(k, self._samples[k], self._noise_scales[k])
 
     def _predict(self, k: int) -> None:
         frames, pre = self.frames, self._pre

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from robot_agent.odometry.contacts import ContactStream, FootContacts
+from robot_agent.odometry.contacts import ContactStream
 from robot_agent.odometry.leg_way import Way, joined, way_of
 from weaver_shared.config.odometry import FeetConfig
+from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.transforms import Pose, rotation_exp
 
 FEET = FeetConfig()
