@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from robot_agent.odometry.estimator import StereoInertialOdometry
 from robot_agent.odometry.propagator import StatePropagator
 from robot_agent.odometry.rotations import exponential
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.odometry import OdometryConfig, WindowConfig
+from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.frames import GRAVITY
 from weaver_shared.messages import ImuBatch, StereoFrame
 from weaver_shared.robots import load_robot
 from weaver_shared.transforms import Pose
 
 FRAMES = 20
+FOOTHOLDS = np.array([[0.3, 0.2, -0.15], [0.3, -0.2, -0.15], [-0.3, 0.0, -0.15]])  # m, in body
 
 
 def warm_up() -> None:
@@ -38,5 +41,15 @@ def warm_up() -> None:
         left = np.ascontiguousarray(texture[:height, 60:][:, :width])
         right = np.ascontiguousarray(texture[:height, 60 + disparity :][:, :width])
         propagator.propagate(imu)
-        propagator.correct(odometry.step(StereoFrame(stamp_ns=end, sequence=k, left=left, right=right), imu))
+        frame = StereoFrame(stamp_ns=end, sequence=k, left=left, right=right)
+        propagator.correct(odometry.step(frame, imu, _standing(stamps)))
     exponential(np.zeros(3))
+
+
+def _standing(stamps: NDArray[np.int64]) -> FootContacts:
+    count = len(stamps)
+    return FootContacts(
+        stamp_ns=stamps,
+        foot_in_body=np.tile(FOOTHOLDS, (count, 1, 1)),
+        touching=np.ones((count, len(FOOTHOLDS)), dtype=np.bool_),
+    )
