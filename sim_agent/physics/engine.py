@@ -198,6 +198,7 @@ class Engine:
     def _set_dynamics(self) -> None:
         """Friction of what touches; none of Bullet's own damping, since the servos' friction is modelled."""
         for index in (-1, *self._joints):
+            # NOTE: friction needs a call of its own: beside damping or joint settings it goes to the trunk instead.
             pybullet.changeDynamics(
                 self._body,
                 index,
@@ -205,6 +206,11 @@ class Engine:
                 spinningFriction=0.0,
                 rollingFriction=0.0,
                 restitution=0.0,
+                physicsClientId=self._client,
+            )
+            pybullet.changeDynamics(
+                self._body,
+                index,
                 linearDamping=0.0,
                 angularDamping=0.0,
                 jointDamping=0.0,

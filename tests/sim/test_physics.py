@@ -5,12 +5,14 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from sim_agent.physics import ContactSensor
-from sim_agent.physics.engine import _PARAMETERS
+from sim_agent.model import sitting_joints
+from sim_agent.physics import ContactSensor, Engine
+from sim_agent.physics.engine import _PARAMETERS, FOOT_FRICTION, TRUNK_FRICTION
 from sim_agent.physics.ground import load_ground
 from sim_agent.physics.quiet import quiet
-from sim_agent.worlds import MATERIALS, Box, Heightfield, Plane, World
+from sim_agent.worlds import MATERIALS, Box, Heightfield, Plane, World, make_world
 from weaver_shared.frames import GRAVITY
+from weaver_shared.robots import load_robot
 
 with quiet():
     import pybullet
@@ -132,3 +134,17 @@ def test_the_contact_switch_has_hysteresis_and_waits_for_two_ticks() -> None:
     sensor = ContactSensor(1, weight=100.0)
     feel = [bool(sensor.step(np.array([force]))[0]) for force in (0, 9, 0, 9, 9, 3, 3, 3, 1, 3, 1, 1, 3, 3, 3)]
     assert feel == [False] * 4 + [True] * 7 + [False] * 4
+
+
+def test_a_robots_feet_and_trunk_have_the_friction_they_are_given() -> None:
+    robot = load_robot("weaver")
+    engine = Engine(robot, make_world("flat", 1), sitting_joints(robot))
+    try:
+        found = {
+            link: pybullet.getDynamicsInfo(engine._body, link, physicsClientId=engine._client)[1]
+            for link in (-1, *engine.foot_links)
+        }
+    finally:
+        engine.close()
+    assert found.pop(-1) == TRUNK_FRICTION
+    assert set(found.values()) == {FOOT_FRICTION}
