@@ -314,7 +314,7 @@ class Walker:
     def _begin_rising(self, in_sequence: bool) -> None:
         """First bring the feet under their stance, over the air where the legs are folded away, then push up."""
         stance = self._robot.stance_in_body
-        feet = stance.copy()
+        feet = self._robot.sitting_in_body.copy()
         feet[:, 2] = float(np.clip(np.median(self._measured_feet[:, 2]), stance[0, 2], self._sitting_height))
         start = self._angles.copy()
         postures = [self._angles_at(feet)]
@@ -332,13 +332,13 @@ class Walker:
         return self._angles.copy()
 
     def _lifted_feet(self) -> Array:
-        feet = self._robot.stance_in_body.copy()
+        feet = self._robot.sitting_in_body.copy()
         feet[:, 2] = self._sitting_height + self._config.folding_lift
         return feet
 
     def _begin_lowering(self) -> None:
         self._folding = None
-        goal = self._feet.copy()
+        goal = self._feet + self._robot.sitting_in_body - self._robot.stance_in_body
         goal[:, 2] = self._sitting_height
         self._foot_glide = Glide(self._feet, goal, self._config.rise_speed)
         self._posture = "lowering"

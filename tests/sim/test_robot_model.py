@@ -75,7 +75,7 @@ def test_urdf_angles_give_the_rotation_back_even_at_right_angles(roll: float, pi
 def test_a_sitting_robot_has_its_feet_on_the_plane_of_its_belly(robot: RobotDescription) -> None:
     joints = sitting_joints(robot)
     feet = feet_in_body(robot, joints)
-    assert np.allclose(feet[:, :2], robot.stance_in_body[:, :2], atol=1e-3)
+    assert np.allclose(feet[:, :2], robot.sitting_in_body[:, :2], atol=1e-3)
     assert np.allclose(feet[:, 2], robot.belly - robot.sitting_gap + robot.foot_radius, atol=1e-3)
     lower, upper = np.tile(robot.joint_limits, (robot.leg_count, 1)).T
     assert np.all((joints >= lower) & (joints <= upper))

@@ -44,6 +44,7 @@ class RobotDescription(Part):
     clearance: Positive
     foot_radius: Positive
     sitting_gap: Annotated[float, Field(ge=0.0)] = 0.0
+    sitting_spread: Annotated[float, Field(ge=0.0)] = 0.0  # m, feet farther out from the hips than when standing
     gaits: Annotated[tuple[str, ...], Field(min_length=1)]
     custom_gaits: tuple[CustomGait, ...] = ()
     posture: Posture | None = None
@@ -177,8 +178,11 @@ class RobotDescription(Part):
 
     @cached_property
     def sitting_in_body(self) -> NDArray[np.float64]:
-        """Foot centres when sitting, (legs, 3): under their stance, the belly `sitting_gap` over the ground."""
+        """Foot centres when sitting, (legs, 3): `sitting_spread` outside of their stance, away from the hips, and the
+        belly `sitting_gap` over the ground."""
         feet = self.stance_in_body.copy()
+        outwards = feet[:, :2] - self.hips_in_body[:, :2]
+        feet[:, :2] += self.sitting_spread * outwards / np.linalg.norm(outwards, axis=1, keepdims=True)
         feet[:, 2] = self.belly - self.sitting_gap + self.foot_radius
         return feet
 
