@@ -8,6 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+SWING_OF_TURN = 0.8
+"""Of a leg's turn in the air; in the rest all feet stand, for a foot lands some 50 ms later than it is told to, and
+the next must not lift before it carries: three feet left of a wave are a triangle with the mass at its edge."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gait:
@@ -45,18 +49,18 @@ def _wave(legs: int) -> Gait:
     offset = [0.0] * legs
     for turn, leg in enumerate(backwards):
         offset[leg] = (-turn / legs) % 1.0
-    # Four feet or fewer: a foot in the air leaves no reserve, so swings are quicker than the legs' turns.
-    duty = 1.0 - 1.0 / legs if legs > 4 else 1.0 - 0.6 / legs
+    # Four feet or fewer: a foot in the air leaves no reserve, so swings are quicker still.
+    duty = 1.0 - (SWING_OF_TURN if legs > 4 else 0.6) / legs
     return Gait(name="wave", duty=duty, offset=tuple(offset))
 
 
 _HEXAPOD = (
     # Swing order AR+CR+BL, BR+CL+AL. Duty above one half: both tripods stand while the load changes over.
     _gait("tripod", 0.56, 2, (0, 1, 0, 1, 0, 1)),
-    # AR, CL, BR, AL, CR, BL, each beginning half a swing after the one before.
-    _gait("ripple", 2.0 / 3.0, 6, (0, 4, 2, 5, 1, 3)),
+    # AR, CL, BR, AL, CR, BL, each beginning half a turn after the one before.
+    _gait("ripple", 1.0 - SWING_OF_TURN / 3.0, 6, (0, 4, 2, 5, 1, 3)),
     # Pairs AR+CL, CR+AL, BR+BL.
-    _gait("amble", 2.0 / 3.0, 6, (0, 2, 4, 0, 2, 4)),
+    _gait("amble", 1.0 - SWING_OF_TURN / 3.0, 6, (0, 2, 4, 0, 2, 4)),
     # Pairs AR+CL, BR+BL, CR+AL; mostly two feet on the ground, so it does not stand still anywhere in the stride.
     _gait("bipod", 0.40, 6, (0, 4, 2, 0, 4, 2)),
 )
@@ -69,10 +73,10 @@ _QUADRUPED = (
 _OCTOPOD = (
     # Every second leg around the body: AR+CR+DL+BL, BR+DR+CL+AL.
     _gait("tetrapod", 0.56, 2, (0, 1, 0, 1, 0, 1, 0, 1)),
-    # Two in the air, each swing beginning half a swing after the one before: AR, CL, BR, BL, CR, AL, DR, DL.
-    _gait("ripple", 0.75, 8, (0, 6, 4, 2, 1, 7, 5, 3)),
+    # Two in the air, each swing beginning half a turn after the one before: AR, CL, BR, BL, CR, AL, DR, DL.
+    _gait("ripple", 1.0 - SWING_OF_TURN / 4.0, 8, (0, 6, 4, 2, 1, 7, 5, 3)),
     # Pairs AR+DL, BR+CL, CR+BL, DR+AL.
-    _gait("amble", 0.75, 4, (0, 1, 2, 3, 0, 1, 2, 3)),
+    _gait("amble", 1.0 - SWING_OF_TURN / 4.0, 4, (0, 1, 2, 3, 0, 1, 2, 3)),
 )
 
 _BY_LEGS = {4: _QUADRUPED, 6: _HEXAPOD, 8: _OCTOPOD}
