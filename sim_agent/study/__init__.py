@@ -1,0 +1,1 @@
+"""Every robot in every gait, walked without console, cameras or odometry, and judged by the truth."""
