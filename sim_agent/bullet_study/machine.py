@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from sim_agent.bullet_study.points import SWING
-from weaver_shared.messages import GaitParameters
 from weaver_shared.robots import RobotDescription, load_robot
 
 HIGHEST_FREQUENCY = 3.0  # Hz, of strides
@@ -24,24 +23,12 @@ def bullet(name: str, variant: str = "") -> RobotDescription:
     ]
     walk = tables["locomotion"]
     walk |= {"feel_ground": False, "largest_speed": FASTEST, "frequency_bounds": (0.05, HIGHEST_FREQUENCY)}
-    walk |= {"shortest_swing": 0.05, "frequency_rate": 10.0}
+    walk |= {"shortest_swing": 0.05, "frequency_rate": 10.0, "spare_servos": False, "overlapping_walkspaces": True}
     walk["stability"] |= {
         f"{level}_{margin}": NEVER for level in ("warn", "slow", "refuse") for margin in ("static", "energy")
     }
     _vary(tables, variant)
     return RobotDescription.model_validate(tables)
-
-
-def flat_ground(robot: RobotDescription) -> GaitParameters:
-    """What the adaptation chooses on smooth level ground."""
-    adaptation = robot.adaptation
-    return GaitParameters(
-        stamp_ns=0,
-        virtual_stiffness=adaptation.stiffness_polynomial[0],
-        stride_frequency=adaptation.frequency_polynomial[0],
-        stride_height=adaptation.height_polynomial[0],
-        confidence=1.0,
-    )
 
 
 def _vary(tables: dict[str, Any], variant: str) -> None:

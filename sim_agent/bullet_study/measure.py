@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from sim_agent.bullet_study.machine import bullet
 from sim_agent.bullet_study.points import SWING, Point
-from sim_agent.bullet_study.rig import DT, Rig
+from sim_agent.study.rig import DT, Rig
 from sim_agent.worlds import make_world
 from weaver_shared.frames import GRAVITY
 from weaver_shared.messages import Proprioception

@@ -1,4 +1,4 @@
-"""A simulated robot with its walker and nothing else: told a velocity, it walks by its own senses."""
+"""A simulated robot with its walker and nothing else, on the ground or held on a stand in the air."""
 
 from __future__ import annotations
 
@@ -26,12 +26,15 @@ SETTLING = 0.5
 
 
 class Rig:
-    """Lock step at 100 Hz. `truth` is for judging, `out` what the walker said at the last tick."""
+    """Lock step at 100 Hz; told a velocity, the robot walks by its own senses. `held_at`: m, height of a stand.
 
-    def __init__(self, robot: RobotDescription, world: World, seed: int = 1) -> None:
+    `truth` is for judging, `out` what the walker said at the last tick.
+    """
+
+    def __init__(self, robot: RobotDescription, world: World, seed: int = 1, *, held_at: float | None = None) -> None:
         self.robot = robot
         self.world = world
-        self.body = SimulatedBody(robot, world, seed)
+        self.body = SimulatedBody(robot, world, seed, held_at=held_at)
         self.walker = Walker(robot, dt=DT)
         self.parameters = flat_ground(robot)
         self.seconds = 0.0
