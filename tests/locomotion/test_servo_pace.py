@@ -50,7 +50,8 @@ def walked(speed, *, gait="tripod", frequency=1.0, height=0.05, seconds=6.0, rob
 def test_feet_stay_on_their_paths_however_fast_the_order(gait, height):
     away, speeds, said = walked(0.35, gait=gait, height=height)
     assert away < 0.008
-    assert speeds.mean() > 0.08
+    # What a foot's time in the air allows: less of the stride in the air is a slower robot.
+    assert speeds.mean() > 0.24 * (1.0 - ROBOT.gait(gait).duty)
     assert SAID in said
 
 

@@ -15,6 +15,7 @@ from numpy_tick.memory import Walk
 from numpy_tick.orders import clean_velocity, follow_parameters, follow_velocity, walked_velocity
 from numpy_tick.posing import pose_body
 from numpy_tick.senses import sense
+from numpy_tick.walkspace import renew_walkspace
 
 __all__ = ["Walk", "answer", "tick"]
 
@@ -28,6 +29,7 @@ def tick(walk, slews=None):
     judge(walk)
     walk.joint.previous = walk.joint.wanted
     walk.feet.stance = walk.model.stance + np.array([*walk.body.shift, 0.0])
+    renew_walkspace(walk)
     follow_velocity(walk)
     start_or_stop(walk)
     if walk.gait.walking:

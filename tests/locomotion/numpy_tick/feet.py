@@ -3,6 +3,9 @@
 import numpy as np
 
 from numpy_tick.stride import bezier, ground_velocity, stride_of, swing_nodes
+from numpy_tick.walkspace import room
+from robot_agent.locomotion import reasons
+from robot_agent.locomotion.feet import FOOTHOLD_SPEED
 from weaver_shared.transforms import rotation_exp
 
 STAND, SWING, REACH, HANG = range(4)
@@ -45,22 +48,63 @@ def swing(walk, leg, progress):
     ground = ground_velocity(gait.commanded, stance)
     foothold = stance + 0.5 * stride_of(gait.commanded, stance, gait.duty, gait.frequency)
     foothold[2] = np.clip(plane @ [foothold[0], foothold[1], 1.0], model.down_limit, model.up_limit)
+    foothold = aimed_foothold(walk, leg) if feet.aimed[leg] else drawn_foothold(walk, leg, foothold)
     half_time = 0.5 * (1.0 - gait.duty) / gait.frequency
     if progress >= 1.0:
         feet.place[leg] = foothold + ground * (progress - 1.0) * 2.0 * half_time
         feet.mode[leg] = STAND
         return
     speed = walk.settings.foothold.touchdown_speed if walk.settings.feel_ground else 0.0
+    settings = walk.settings.foothold
+    outward = np.array([0.0, settings.swing_width * (1.0 if stance[1] > 0.0 else -1.0), 0.0])
     first, second = swing_nodes(
-        feet.lift_off[leg], foothold, walk.senses.unposed_up, feet.swing_height[leg], ground, speed, half_time
+        feet.lift_off[leg],
+        foothold,
+        direction_of_swing(walk),
+        feet.swing_height[leg],
+        ground,
+        speed,
+        half_time,
+        settings.along_normal,
+        outward,
     )
     feet.place[leg] = bezier(first, 2.0 * progress) if progress < 0.5 else bezier(second, 2.0 * progress - 1.0)
+
+
+def drawn_foothold(walk, leg, foothold):
+    """The plan, or as far towards it as a tick's way goes."""
+    feet, largest = walk.feet, FOOTHOLD_SPEED * walk.model.dt
+    if feet.planned[leg]:
+        change = foothold - feet.foothold[leg]
+        away = np.linalg.norm(change)
+        foothold = feet.foothold[leg] + change * (min(1.0, largest / away) if away > 0.0 else 1.0)
+    feet.planned[leg], feet.foothold[leg] = True, foothold
+    return foothold
+
+
+def aimed_foothold(walk, leg):
+    """The ordered place, or the nearest to it in the walkspace."""
+    stance, target, model = walk.feet.stance[leg], walk.orders.target[leg], walk.model
+    away = (target - stance)[:2]
+    far, free = np.linalg.norm(away), room(walk, leg, *away)
+    if far > free:
+        walk.answer.reasons |= reasons.FOOTHOLD
+        away = away * free / far
+    return np.array([*(stance[:2] + away), np.clip(target[2], model.down_limit, model.up_limit)])
+
+
+def direction_of_swing(walk):
+    """Against gravity, or off the ground."""
+    if not walk.settings.foothold.along_normal:
+        return walk.senses.unposed_up
+    normal = np.array([-walk.body.plane[0], -walk.body.plane[1], 1.0])
+    return normal / np.linalg.norm(normal)
 
 
 def reach(walk, leg):
     feet, settings, dt = walk.feet, walk.settings.foothold, walk.model.dt
     ground = ground_velocity(walk.gait.commanded, feet.stance[leg])
-    feet.place[leg] += (walk.gait.pace * ground - settings.touchdown_speed * walk.senses.unposed_up) * dt
+    feet.place[leg] += (walk.gait.pace * ground - settings.touchdown_speed * direction_of_swing(walk)) * dt
     feet.reached[leg] += settings.touchdown_speed * dt
     too_far = feet.reached[leg] > settings.reach_down or feet.place[leg, 2] < walk.model.down_limit
     feet.mode[leg] = HANG if too_far else REACH

@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from numpy_tick.orders import approach
+from numpy_tick.orders import approached
+from numpy_tick.servo_pace import forget_demand, pace_for
 from numpy_tick.stride import stride_of
 from robot_agent.locomotion import reasons
 from robot_agent.locomotion.gait_clock import GLIDE
-from robot_agent.locomotion.stepper import BRAKING_STRIDE, PACE_TIME, STOP_SLEW
+from robot_agent.locomotion.stepper import BRAKING_STRIDE, PACE_TIME, SLOWNESS_TOLD, STOP_SLEW
 
 STAND, SWING, REACH, HANG = range(4)
 
@@ -21,7 +22,7 @@ def start_or_stop(walk):
         if gait.halted and not np.isin(mode, (SWING, REACH)).any() and not gait.commanded.any():
             gait.walking = gait.skipped = False
     if gait.walking and gait.halted and gait.skipped:
-        approach(walk, np.zeros(3), STOP_SLEW)
+        gait.commanded = approached(walk, np.zeros(3), STOP_SLEW)
 
 
 def begin(walk):
@@ -37,6 +38,7 @@ def begin(walk):
     at_lift_off = (gait.leg_phase < 1e-9) | (gait.leg_phase > 1.0 - 1e-9)
     walk.feet.lifted = (gait.leg_phase < 1.0 - gait.duty) & ~at_lift_off
     gait.walking, gait.skipped, gait.halted, gait.pace, gait.waited = True, False, False, 1.0, 0.0
+    forget_demand(walk)
 
 
 def cost_of_start(walk, phase):
@@ -57,8 +59,7 @@ def advance(walk):
     due = (on_ground & (feet.lifted == 0)) | (gait.leg_phase >= 1.0 - gait.duty)
     until_lift = min([1.0, *(1.0 - gait.leg_phase[due])])
     reaching = (feet.mode == REACH).any()
-    target = np.clip(until_lift / BRAKING_STRIDE, 0.0, 1.0) if reaching else 1.0
-    gait.pace += np.clip(target - gait.pace, -dt / PACE_TIME, dt / PACE_TIME)
+    follow_pace(walk, np.clip(until_lift / BRAKING_STRIDE, 0.0, 1.0) if reaching else 1.0)
     strides = gait.frequency * dt * gait.pace
     if reaching and strides >= until_lift - 1e-4:
         strides, gait.waited = 0.0, gait.waited + dt
@@ -69,6 +70,18 @@ def advance(walk):
         gait.waited = 0.0
     run_clock(walk, strides)
     lift_feet(walk)
+
+
+def follow_pace(walk, target):
+    gait, change = walk.gait, walk.model.dt / PACE_TIME
+    spared = walk.settings.spare_servos and not gait.halted
+    if spared:
+        target = min(target, gait.stride_pace)
+        if gait.stride_pace < 1.0 - SLOWNESS_TOLD:
+            walk.answer.reasons |= reasons.SLOW_SERVOS
+    gait.pace += np.clip(target - gait.pace, -change, change)
+    if spared:
+        gait.pace = min(gait.pace, pace_for(gait.demand))
 
 
 def run_clock(walk, strides):
@@ -93,4 +106,5 @@ def lift_feet(walk):
             feet.lift_off[leg] = feet.place[leg]
             load.offset[leg] = 0.0
             feet.mode[leg], feet.lifted[leg] = SWING, True
-            feet.swing_height[leg], feet.reached[leg] = gait.height, 0.0
+            feet.swing_height[leg], feet.reached[leg] = min(gait.height, walk.model.headroom[leg]), 0.0
+            feet.planned[leg], feet.aimed[leg] = False, walk.orders.targeted[leg]

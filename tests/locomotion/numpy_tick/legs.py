@@ -3,8 +3,8 @@
 import numpy as np
 
 from numpy_tick.inverse import solve_leg
+from numpy_tick.servo_pace import learn_demand
 from robot_agent.locomotion import reasons
-from robot_agent.locomotion.legs_tick import SLOWEST_PACE
 
 STAND = 0
 
@@ -24,17 +24,16 @@ def reach_feet(walk):
 
 def follow_angles(walk):
     model, joint = walk.model, walk.joint
-    limit = model.speed_limit * model.dt
     step = joint.wanted - joint.previous
-    factor = np.minimum(1.0, 1.0 / np.maximum(np.abs(step) / limit, 1e-300).max(axis=1))
-    together = walk.feet.mode == STAND
-    shared = min([1.0, *factor[together]])
-    factor = np.where(together, shared, factor)
-    joint.wanted = np.where((factor < 1.0)[:, None], joint.previous + factor[:, None] * step, joint.wanted)
-    if shared < 1.0:
-        walk.gait.pace = min(walk.gait.pace, max(shared, SLOWEST_PACE))
-    if (np.abs(joint.wanted - joint.previous) > (1.0 - 1e-9) * limit).any():
+    demand = np.abs(step / (model.speed_limit * model.dt)).max(axis=1)
+    if walk.gait.walking:
+        learn_demand(walk, demand.max())
+    if demand.max() >= 1.0 - 1e-9:
         walk.answer.reasons |= reasons.SERVO_SPEED
+        factor = 1.0 / np.maximum(demand, 1.0)
+        together = walk.feet.mode == STAND
+        factor = np.where(together, min([1.0, *factor[together]]), factor)
+        joint.wanted = np.where((factor < 1.0)[:, None], joint.previous + factor[:, None] * step, joint.wanted)
     target_servos(walk)
 
 

@@ -2,11 +2,13 @@
 
 import numpy as np
 
+from numpy_tick.speed import speed_of
+from numpy_tick.walkspace import excursion, room
 from robot_agent.locomotion import reasons
-from robot_agent.locomotion.body_velocity import STILL, TURN_RADIUS
+from robot_agent.locomotion.body_velocity import HALVINGS, STILL
 from robot_agent.locomotion.stepper import FREE_OVERRUN, LARGEST_OVERRUN
 
-SWING = 1
+STAND, SWING = 0, 1
 
 
 def clean_velocity(walk):
@@ -37,42 +39,55 @@ def follow_parameters(walk):
     gait.started = gait.started or usable.all()
 
 
-def speed_of(velocity):
-    """m/s: turning counts like a foot's speed."""
-    return np.linalg.norm(velocity * [1.0, 1.0, TURN_RADIUS])
-
-
 def follow_velocity(walk):
     gait, settings = walk.gait, walk.settings
     speed = speed_of(walk.orders.velocity)
-    share = min(1.0, settings.largest_speed / speed) if speed > 0.0 else 1.0
+    share = min(1.0, gait.fastest / speed) if speed > 0.0 else 1.0
     share *= stride_share(walk, share * walk.orders.velocity)
     if share < 0.999:
         walk.answer.reasons |= reasons.STRIDE
     gait.limited = share * walk.orders.velocity
-    approach(walk, gait.limited, settings.largest_speed / settings.start_time)
+    wanted = approached(walk, gait.limited, settings.largest_speed / settings.start_time)
+    gait.commanded += affordable(walk, wanted) * (wanted - gait.commanded)
 
 
-def approach(walk, target, speed_up):
+def approached(walk, target, speed_up):
+    """The commanded velocity a tick nearer to `target`."""
     gait, settings = walk.gait, walk.settings
     rate = settings.largest_speed / settings.stop_time if speed_of(target) < speed_of(gait.commanded) else speed_up
     gap = speed_of(target - gait.commanded)
-    gait.commanded += min(1.0, rate * walk.model.dt / gap if gap > 0.0 else 1.0) * (target - gait.commanded)
+    return gait.commanded + min(1.0, rate * walk.model.dt / gap if gap > 0.0 else 1.0) * (target - gait.commanded)
+
+
+def affordable(walk, wanted):
+    """The share of a change to a faster velocity that leaves all standing feet room until they lift."""
+    gait = walk.gait
+    if not gait.walking or speed_of(wanted) <= speed_of(gait.commanded):
+        return 1.0
+    due = (gait.leg_phase < 1.0 - gait.duty) & (walk.feet.lifted == 0)
+    time_left = np.where((walk.feet.mode == STAND) & ~due, (1.0 - gait.leg_phase) / gait.frequency, 0.0)
+    allowed = max(1.0, excursion(walk, gait.commanded, time_left)) + 1e-6
+
+    def fits(share):
+        return excursion(walk, gait.commanded + share * (wanted - gait.commanded), time_left) <= allowed
+
+    if fits(1.0):
+        return 1.0
+    least, most = 0.0, 1.0
+    for _ in range(HALVINGS - 1):
+        middle = 0.5 * (least + most)
+        least, most = (middle, most) if fits(middle) else (least, middle)
+    return least
 
 
 def stride_share(walk, velocity):
-    """The factor, at most 1, that keeps every leg's stride within its radius."""
+    """The factor, at most 1, that keeps every leg's stride within its walkspace."""
     gait, share = walk.gait, 1.0
     for leg, (x, y, _) in enumerate(walk.feet.stance):
         along = velocity[:2] + velocity[2] * np.array([-y, x])
         half = 0.5 * np.linalg.norm(along) * gait.duty / gait.frequency
         if half > 0.0:
-            bearings = walk.model.radius.shape[1]
-            place = np.arctan2(along[1], along[0]) % (2.0 * np.pi) / (2.0 * np.pi) * bearings
-            radius = np.interp(
-                place, np.arange(bearings + 1), np.append(walk.model.radius[leg], walk.model.radius[leg, 0])
-            )
-            share = min(share, min(radius, 0.5 * walk.settings.largest_stride) / half)
+            share = min(share, min(room(walk, leg, *along), 0.5 * walk.settings.largest_stride) / half)
     return share
 
 

@@ -13,14 +13,16 @@ def stride_of(velocity, foot, duty, frequency):
     return -ground_velocity(velocity, foot) * duty / frequency
 
 
-def swing_nodes(lift_off, foothold, up, height, ground, touchdown_speed, half_time):
+def swing_nodes(lift_off, foothold, up, height, ground, touchdown_speed, half_time, along_up, outward):
     """Both curves' nodes, (5, 3) each: they leave and meet the ground at its own velocity and pass the apex level."""
     rise = (foothold - lift_off) @ up
-    apex = lift_off + 0.5 * (foothold - lift_off - rise * up) + (max(rise, 0.0) + height) * up
     leaving = 0.25 * half_time * ground
     arriving = leaving - 0.25 * half_time * touchdown_speed * up
-    before = 0.5 * (apex + lift_off + 2.0 * leaving)
-    before = before + ((apex - before) @ up) * up
+    way = foothold - lift_off - rise * up
+    apex = lift_off + (way - 4.0 * leaving if along_up else 0.5 * way) + (max(rise, 0.0) + height) * up
+    before = apex - leaving if along_up else 0.5 * (apex + lift_off + 2.0 * leaving)
+    before = before + ((apex - before) @ up) * up + outward
+    apex = apex + outward
     first = np.array([lift_off, lift_off + leaving, lift_off + 2.0 * leaving, before, apex])
     second = np.array([apex, 2.0 * apex - before, foothold - 2.0 * arriving, foothold - arriving, foothold])
     return first, second
