@@ -91,10 +91,11 @@ class VisionPipeline:
 
     def step(self, frame: StereoFrame, imu: ImuBatch, legs: LegBatch) -> VisionTick:
         """One stereo pair with all IMU samples and readings of the legs since the previous one."""
-        odometry = self._odometry.step(frame, imu, FootContacts.of(self._robot, legs))
+        contacts = FootContacts.of(self._robot, legs)
+        odometry = self._odometry.step(frame, imu, contacts)
         self._frames += 1
         self._map.remember(odometry)
-        self._feel(legs, odometry)
+        self._feel(contacts, odometry)
         if self._frames % self._perceive_every:
             return VisionTick(odometry=odometry, terrain=None, report=None, tiles=())
         perceived = self._perception.step(frame, odometry)
@@ -112,9 +113,9 @@ class VisionPipeline:
             route=self._route(odometry),
         )
 
-    def _feel(self, legs: LegBatch, odometry: OdometryEstimate) -> None:
+    def _feel(self, contacts: FootContacts | None, odometry: OdometryEstimate) -> None:
         """Footholds enter the map, and speak of the ground, while it is known where they are."""
-        footholds = self._feet.step(legs, odometry.world_from_body)
+        footholds = self._feet.step(contacts, odometry.world_from_body)
         if odometry.quality not in (OdometryQuality.GOOD, OdometryQuality.DEGRADED):
             footholds = footholds[:0]
         self._felt = self._felt_ground.step(footholds, odometry.position_in_world, odometry.stamp_ns)

@@ -14,7 +14,7 @@ from robot_agent.vision.camera import StereoCalibration
 from sim_agent.rendering import StereoRenderer
 from sim_agent.worlds import World
 from weaver_shared.config.perception import PerceptionConfig
-from weaver_shared.messages import OdometryEstimate, OdometryQuality, SceneState, StereoFrame
+from weaver_shared.messages import OdometryEstimate, SceneState, StereoFrame
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import Pose, rotation_y
 
@@ -150,7 +150,7 @@ class Views:
     def _errors(self, index: int, frame: StereoFrame) -> tuple[float, Array]:
         """Health, and height errors (n, n) of the cells near the camera; NaN where there is none."""
         pose = self._poses[index]
-        perceived = self._perception.step(frame, _odometry(pose, frame.stamp_ns))
+        perceived = self._perception.step(frame, OdometryEstimate.at_rest(pose, frame.stamp_ns))
         grid = perceived.grid
         n = grid.elevation.shape[0]
         x = (grid.row0 + np.arange(n) + 0.5) * grid.cell
@@ -167,19 +167,3 @@ class Views:
         return Pose(
             rotation=rotation_y(float(pitch)), position=np.array([x, 0.0, ground.mean() + self._robot.clearance])
         )
-
-
-def _odometry(pose: Pose, stamp_ns: int) -> OdometryEstimate:
-    return OdometryEstimate(
-        stamp_ns=stamp_ns,
-        position_in_world=pose.position,
-        wxyz=pose.wxyz,
-        velocity_in_world=np.zeros(3),
-        angular_velocity_in_body=np.zeros(3),
-        gyro_bias=np.zeros(3),
-        accel_bias=np.zeros(3),
-        covariance=np.eye(6) * 1e-6,
-        quality=OdometryQuality.GOOD,
-        reason="",
-        tracked_features=100,
-    )

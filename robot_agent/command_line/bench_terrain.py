@@ -21,7 +21,7 @@ from robot_agent.vision.camera import StereoCalibration
 from robot_agent.vision.rectification import Rectifier
 from weaver_shared.config.mapping import MappingConfig
 from weaver_shared.config.perception import PerceptionConfig
-from weaver_shared.messages import OdometryEstimate, OdometryQuality, StereoFrame
+from weaver_shared.messages import OdometryEstimate, StereoFrame
 from weaver_shared.robots import RobotDescription, load_robot
 from weaver_shared.transforms import Pose
 
@@ -52,7 +52,7 @@ def measure(repeats: int) -> dict[str, dict[str, float]]:
     perception, terrain_map, odometry = (
         TerrainPerception(StereoCalibration.of_robot(robot)),
         TerrainMap(),
-        _odometry(standing),
+        OdometryEstimate.at_rest(standing),
     )
 
     def whole_frame() -> None:
@@ -125,22 +125,6 @@ def _least_ms(work: Callable[[], object], repeats: int) -> float:
         work()
         times.append(time.thread_time_ns() - begin)
     return min(times) * 1e-6
-
-
-def _odometry(pose: Pose) -> OdometryEstimate:
-    return OdometryEstimate(
-        stamp_ns=0,
-        position_in_world=pose.position,
-        wxyz=pose.wxyz,
-        velocity_in_world=np.zeros(3),
-        angular_velocity_in_body=np.zeros(3),
-        gyro_bias=np.zeros(3),
-        accel_bias=np.zeros(3),
-        covariance=np.eye(6) * 1e-6,
-        quality=OdometryQuality.GOOD,
-        reason="",
-        tracked_features=100,
-    )
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from weaver_shared.messages import OdometryEstimate, OdometryQuality
+from weaver_shared.messages import OdometryEstimate
+from weaver_shared.transforms import Pose
 
 
 @dataclass
@@ -34,16 +35,4 @@ def seen(elevation, x=(-1.0, 1.0), y=(-1.0, 1.0), sigma=0.003, stamp_ns=0, cell=
 
 
 def at(x=0.0, y=0.0, stamp_ns=0):
-    return OdometryEstimate(
-        stamp_ns=stamp_ns,
-        position_in_world=np.array([x, y, 0.165]),
-        wxyz=np.array([1.0, 0.0, 0.0, 0.0]),
-        velocity_in_world=np.zeros(3),
-        angular_velocity_in_body=np.zeros(3),
-        gyro_bias=np.zeros(3),
-        accel_bias=np.zeros(3),
-        covariance=np.eye(6) * 1e-6,
-        quality=OdometryQuality.GOOD,
-        reason="",
-        tracked_features=100,
-    )
+    return OdometryEstimate.at_rest(Pose.of([x, y, 0.165]), stamp_ns)

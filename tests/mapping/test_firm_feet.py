@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from robot_agent.mapping import FirmFeet
-from weaver_shared.leg_batch import LegBatch
+from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.robots import load_robot
 from weaver_shared.robots.forward_kinematics import feet_in_body
 from weaver_shared.transforms import Pose, rotation_from_rpy
@@ -15,16 +15,14 @@ JOINTS = np.linspace(-0.3, 0.4, ROBOT.joint_count)
 POSE = Pose(rotation=rotation_from_rpy(0.1, -0.05, 0.4), position=np.array([2.0, -1.0, 0.17]))
 
 
-def readings(first, contacts, joints=None):
+def readings(first, contacts):
     """Ticks from number `first` on with these contacts (n, legs)."""
     contacts = np.asarray(contacts, dtype=bool)
-    joints = JOINTS if joints is None else joints
     n = len(contacts)
-    return LegBatch(
+    return FootContacts(
         stamp_ns=(first + np.arange(n)) * TICK_NS,
-        joint_position=np.tile(joints, (n, 1)),
-        joint_torque=np.zeros((n, len(joints))),
-        foot_contact=contacts,
+        foot_in_body=np.tile(feet_in_body(ROBOT, JOINTS), (n, 1, 1)),
+        touching=contacts,
     )
 
 
@@ -60,4 +58,4 @@ def test_a_trembling_contact_is_never_firm():
 
 
 def test_no_readings_are_no_feet():
-    assert FirmFeet(ROBOT).step(LegBatch.empty(), POSE).shape == (0, 3)
+    assert FirmFeet(ROBOT).step(None, POSE).shape == (0, 3)

@@ -8,7 +8,7 @@ from numba import njit
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.messages import OdometryEstimate, OdometryQuality, StereoFrame
 from weaver_shared.robots import load_robot
-from weaver_shared.transforms import Pose, wxyz_from_rotation
+from weaver_shared.transforms import Pose
 
 NODE = 0.005  # m between the nodes of the height map
 TEXEL = 0.0025  # m
@@ -52,19 +52,7 @@ def standing(x=0.0, z=0.165, rotation=None):
 
 
 def odometry_at(pose, quality=OdometryQuality.GOOD, stamp_ns=0):
-    return OdometryEstimate(
-        stamp_ns=stamp_ns,
-        position_in_world=pose.position,
-        wxyz=wxyz_from_rotation(pose.rotation),
-        velocity_in_world=np.zeros(3),
-        angular_velocity_in_body=np.zeros(3),
-        gyro_bias=np.zeros(3),
-        accel_bias=np.zeros(3),
-        covariance=np.eye(6) * 1e-6,
-        quality=quality,
-        reason="",
-        tracked_features=100,
-    )
+    return OdometryEstimate.at_rest(pose, stamp_ns, quality)
 
 
 @njit(cache=True)

@@ -38,6 +38,25 @@ class OdometryEstimate:
     def world_from_body(self) -> Pose:
         return Pose.of(self.position_in_world, self.wxyz)
 
+    @staticmethod
+    def at_rest(
+        world_from_body: Pose, stamp_ns: int = 0, quality: OdometryQuality = OdometryQuality.GOOD
+    ) -> "OdometryEstimate":
+        """A body known to a millimetre to stand there: for pictures whose place was chosen, not estimated."""
+        return OdometryEstimate(
+            stamp_ns=stamp_ns,
+            position_in_world=world_from_body.position,
+            wxyz=world_from_body.wxyz,
+            velocity_in_world=np.zeros(3),
+            angular_velocity_in_body=np.zeros(3),
+            gyro_bias=np.zeros(3),
+            accel_bias=np.zeros(3),
+            covariance=np.eye(6) * 1e-6,
+            quality=quality,
+            reason="",
+            tracked_features=100,
+        )
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TerrainEstimate:
