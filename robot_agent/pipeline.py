@@ -98,7 +98,7 @@ class VisionPipeline:
         self._feel(contacts, odometry)
         if self._frames % self._perceive_every:
             return VisionTick(odometry=odometry, terrain=None, report=None, tiles=())
-        perceived = self._perception.step(frame, odometry)
+        perceived = self._perception.step(frame, odometry, self._ground_height(contacts, odometry))
         self._map.update(perceived, odometry)
         x, y, _ = odometry.position_in_world
         worst = self._map.worst_within(x, y)
@@ -112,6 +112,13 @@ class VisionPipeline:
             tiles=tuple(self._map.changed_tiles(frame.stamp_ns)),
             route=self._route(odometry),
         )
+
+    def _ground_height(self, contacts: FootContacts | None, odometry: OdometryEstimate) -> float | None:
+        """Where ground is expected, m in world: a sitting robot's is higher than a standing one's."""
+        if contacts is None:
+            return None
+        height = contacts.ground_height(odometry.world_from_body, self._robot.foot_radius)
+        return height if np.isfinite(height) else None
 
     def _feel(self, contacts: FootContacts | None, odometry: OdometryEstimate) -> None:
         """Footholds enter the map, and speak of the ground, while it is known where they are."""

@@ -49,8 +49,14 @@ class TerrainPerception:
         self._matcher = StereoMatcher(config.matching)
         self._grid = DisparityGrid(self.camera, config.grid, config.matching.disparity_sigma)
 
-    def step(self, frame: StereoFrame, odometry: OdometryEstimate) -> PerceivedTerrain:
-        """Bad pictures or a lost pose give an estimate of NaN with its reason, never a flat ground."""
+    def step(
+        self, frame: StereoFrame, odometry: OdometryEstimate, ground_height: float | None = None
+    ) -> PerceivedTerrain:
+        """Bad pictures or a lost pose give an estimate of NaN with its reason, never a flat ground.
+
+        `ground_height` is the world's z in m under the soles, where the feet tell it; without, the robot is taken to
+        stand at its usual height.
+        """
         left, right = self._rectifier.rectify(frame)
         disparity = self._matcher.match(left, right)
         health = assess(left, right, disparity, self._config.health)
@@ -63,7 +69,10 @@ class TerrainPerception:
         else:
             reason = health.reason
         grid = self._grid.fuse(
-            disparity, world_from_camera, self._foot_plane(world_from_body), self._config.matching.smallest_disparity
+            disparity,
+            world_from_camera,
+            self._foot_plane(world_from_body, ground_height),
+            self._config.matching.smallest_disparity,
         )
         estimate = self._characterise(grid, world_from_body, world_from_camera, frame.stamp_ns, health, reason)
         return PerceivedTerrain(
@@ -74,10 +83,11 @@ class TerrainPerception:
             health=health,
         )
 
-    def _foot_plane(self, world_from_body: Pose) -> tuple[float, float, float]:
+    def _foot_plane(self, world_from_body: Pose, ground_height: float | None) -> tuple[float, float, float]:
         """Level plane through the soles: where ground is expected, give or take the gate."""
-        soles = world_from_body.transform([0.0, 0.0, -self._config.foot_depth])
-        return 0.0, 0.0, float(soles[2])
+        if ground_height is None:
+            ground_height = float(world_from_body.transform([0.0, 0.0, -self._config.foot_depth])[2])
+        return 0.0, 0.0, ground_height
 
     def _characterise(
         self,

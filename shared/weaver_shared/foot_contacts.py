@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from weaver_shared.leg_batch import LegBatch
 from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import feet_in_body
+from weaver_shared.transforms import Pose
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -33,6 +34,15 @@ class FootContacts:
             foot_in_body=np.array([feet_in_body(robot, joints) for joints in legs.joint_position]),
             touching=legs.foot_contact,
         )
+
+    def ground_height(self, world_from_body: Pose, foot_radius: float) -> float:
+        """World z in m of the ground under the soles at the end, the body being at `world_from_body` then.
+
+        The mean of the feet that touch; of the three lowest where fewer than three do.
+        """
+        height = self.foot_in_body[-1] @ world_from_body.rotation[2] + world_from_body.position[2] - foot_radius
+        touching = self.touching[-1]
+        return float(height[touching].mean() if touching.sum() >= 3 else np.sort(height)[:3].mean())
 
     @staticmethod
     def join(parts: list[FootContacts]) -> FootContacts:

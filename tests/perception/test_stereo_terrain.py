@@ -37,9 +37,9 @@ def flat_frame(scenes):
     return scenes["flat"].frame(standing())
 
 
-def perceive(frame, pose=None, config=None, quality=OdometryQuality.GOOD):
+def perceive(frame, pose=None, config=None, quality=OdometryQuality.GOOD, ground_height=None):
     perception = TerrainPerception(CALIBRATION, config or PerceptionConfig())
-    return perception.step(frame, odometry_at(pose or standing(), quality))
+    return perception.step(frame, odometry_at(pose or standing(), quality), ground_height)
 
 
 def error_of(perceived, elevation):
@@ -47,6 +47,12 @@ def error_of(perceived, elevation):
     rows, columns = np.nonzero(np.isfinite(grid.elevation))
     x, y = (grid.row0 + rows + 0.5) * grid.cell, (grid.column0 + columns + 0.5) * grid.cell
     return np.abs(grid.elevation[rows, columns] - elevation(x, y))
+
+
+def test_ground_is_sought_where_the_feet_stand(flat_frame):
+    known = [np.isfinite(perceive(flat_frame, ground_height=z).grid.elevation).sum() for z in (None, 0.0, -0.9)]
+    assert known[0] == known[1] > 2500
+    assert known[2] == 0
 
 
 def test_flat_ground_reads_flat(flat_frame):
