@@ -99,6 +99,7 @@ class VisionPipeline:
         if self._frames % self._perceive_every:
             return VisionTick(odometry=odometry, terrain=None, report=None, tiles=())
         perceived = self._perception.step(frame, odometry, self._ground_height(contacts, odometry))
+        self._map.follow(self._odometry.settled_poses)
         self._map.update(perceived, odometry)
         x, y, _ = odometry.position_in_world
         worst = self._map.worst_within(x, y)

@@ -110,6 +110,17 @@ class StereoInertialOdometry:
         """(6,) standard deviations of the gyro (rad/s) and accelerometer bias (m/s^2)."""
         return self._window.bias_sigmas() if self._started else np.full(6, np.inf)
 
+    @property
+    def settled_poses(self) -> dict[int, Pose]:
+        """world_from_body of the window's frames as it is believed now, by their pictures' stamps in ns."""
+        if not self._started:
+            return {}
+        frames = self._window.frames
+        return {
+            stamp_ns: Pose(rotation=frames.rotation[k].copy(), position=frames.position[k].copy()) @ self._imu_from_body
+            for k, stamp_ns in enumerate(self._window.stamps)
+        }
+
     def step(self, frame: StereoFrame, imu: ImuBatch, contacts: FootContacts | None = None) -> OdometryEstimate:
         """The body's pose at the frame's stamp, from the pair and all inertial samples since the previous one.
 

@@ -22,6 +22,7 @@ class Operator:
         self._sequence = 0
         self._epoch = 0
         self._ended = threading.Event()
+        self._retainer: threading.Thread | None = None
 
     @property
     def has_held_control(self) -> bool:
@@ -60,10 +61,14 @@ class Operator:
 
     def retain_in_background(self) -> None:
         """Keep the lease alive from a thread of its own until `close()`."""
-        threading.Thread(target=self._retain, daemon=True).start()
+        self._retainer = threading.Thread(target=self._retain, daemon=True)
+        self._retainer.start()
 
     def close(self) -> None:
+        """End the keeping. Returns when nothing more is sent, so the bus may then be closed."""
         self._ended.set()
+        if self._retainer is not None:
+            self._retainer.join()
 
     def _retain(self) -> None:
         while not self._ended.wait(RETAIN_PERIOD):

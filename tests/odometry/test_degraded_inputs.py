@@ -72,6 +72,21 @@ def test_clean_pictures_are_followed_to_millimetres(
     assert estimates[-1].world_from_body.rotation == pytest.approx(truth.rotation, abs=0.01)
 
 
+def test_poses_of_pictures_gone_by_are_corrected_as_long_as_they_are_in_the_window(
+    recording: Recording, robot: RobotDescription, calibration: StereoCalibration
+) -> None:
+    odometry = StereoInertialOdometry(calibration=calibration, imu=robot.imu, initial=Walk().body(0.0))
+    assert odometry.settled_poses == {}
+    said = {frame.stamp_ns: odometry.step(frame, batch) for frame, batch in recording}
+    settled = odometry.settled_poses
+    assert max(settled) == recording[-1][0].stamp_ns
+    assert settled[max(settled)].position == pytest.approx(said[max(settled)].position_in_world, abs=1e-9)
+    changed = [np.linalg.norm(pose.position - said[stamp].position_in_world) for stamp, pose in settled.items()]
+    assert max(changed) > 1e-5
+    for stamp, pose in settled.items():
+        assert np.linalg.norm(pose.position - Walk().body(stamp * 1e-9).position) < 0.008
+
+
 def test_darkness_is_bridged_by_inertia(recording: Recording, run: Callable[..., list[OdometryEstimate]]) -> None:
     dark = _spoiled(recording, 50, 70, lambda f: replace(f, left=BLACK, right=BLACK))
     estimates = run(dark)
