@@ -26,13 +26,13 @@ LONGEST_STOP = 3.0
 def walk_course(robot: RobotDescription, gait: str, seed: int, ways: tuple[str, ...] = WAYS) -> list[Result]:
     """All manoeuvres one after the other in one run; a robot that fell does not go on."""
     rig = Rig(robot, make_world("flat", seed), seed)
-    rig.parameters = parameters_for(robot, gait)
+    parameters = rig.parameters = parameters_for(robot, gait)
     try:
         stood = rise(rig, gait)
         results: list[Result] = []
         for way in ways:
             if stood and not (results and results[-1].fell):
-                results.append(_walk(rig, gait, way, pace_of(robot, gait, way, rig.parameters)))
+                results.append(_walk(rig, gait, way, pace_of(robot, gait, way, parameters)))
             else:
                 results.append(_not_walked(robot, gait, way, stood))
         if not results[-1].stood or results[-1].fell:
@@ -48,6 +48,7 @@ def _walk(rig: Rig, gait: str, way: str, pace: Pace) -> Result:
     """Get under way for a stride, measure the speed over `STRIDES`, and stop."""
     started, begun = time.thread_time(), rig.seconds
     watch, rig.torque_share = Watch(), 0.0
+    rig.parameters = replace(rig.parameters, stride_frequency=pace.frequency)
     under_way = round((rig.robot.locomotion.start_time + 1.0 / pace.frequency) / DT)
     measured = round(STRIDES / pace.frequency / DT)
     before = after = rig.truth()

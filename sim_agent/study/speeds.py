@@ -17,9 +17,14 @@ SHARE = 0.6
 """Of the largest speed that stride and frequency allow."""
 RESERVE = 0.95
 """Of what the walker grants."""
+SLACK = 0.8
+"""Of the frequency that unloaded servos can follow: feet that seek the ground need some of their speed as well."""
 QUICK = 1.5
 """Swing time over the shortest, of gaits that are not statically stable."""
-REHEARSAL = 400  # ticks
+SETTLING = 300  # ticks
+STRIDES = 2
+"""Walked in the rehearsal once it has settled."""
+LONGEST_REHEARSAL = 3000  # ticks
 DT = 0.01  # s
 
 DIRECTIONS = {"forward": (1.0, 0.0, 0.0), "sideways": (0.0, 1.0, 0.0), "turn": (0.0, 0.0, 1.0)}
@@ -27,7 +32,7 @@ DIRECTIONS = {"forward": (1.0, 0.0, 0.0), "sideways": (0.0, 1.0, 0.0), "turn": (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pace:
-    """How to walk: `velocity` (3,) in m/s and rad/s, and the frequency in Hz at which the gait then runs."""
+    """How to walk: `velocity` (3,) in m/s and rad/s, and the stride's frequency in Hz that goes with it."""
 
     velocity: Array
     frequency: float
@@ -62,17 +67,20 @@ def pace_of(robot: RobotDescription, gait: str, way: str, parameters: GaitParame
     order = speed * np.array(DIRECTIONS[way])
     order[2] /= float(np.linalg.norm(robot.stance_in_body[:, :2], axis=1).mean())
     granted, frequency = _rehearse(robot, gait, order, parameters)
-    return Pace(velocity=order * min(1.0, RESERVE * granted / float(np.linalg.norm(order))), frequency=frequency)
+    slack = SLACK if timing.fewest_standing >= 3 else 1.0
+    share = min(1.0, slack * RESERVE * granted / float(np.linalg.norm(order)))
+    return Pace(velocity=order * share, frequency=slack * frequency)
 
 
 def _rehearse(robot: RobotDescription, gait: str, order: Array, parameters: GaitParameters) -> tuple[float, float]:
-    """The size of the velocity that comes of an order, and the stride's frequency in Hz, once both have settled."""
-    config = robot.locomotion.model_copy(update={"feel_ground": False, "compensate_servos": False})
+    """The mean size of the velocity that comes of an order, and the stride's frequency in Hz, over whole strides."""
+    config = robot.locomotion.model_copy(update={"feel_ground": False})
     walker = Walker(robot, config, DT)
     joints = walker.begin_standing()
-    phase, granted = np.zeros(robot.leg_count), 0.0
-    frequency = 0.0
-    for tick in range(REHEARSAL):
+    phase, turned = np.zeros(robot.leg_count), 0.0
+    granted: list[float] = []
+    tick = 0
+    while turned < STRIDES and tick < LONGEST_REHEARSAL:
         out = walker.step(
             WalkInput(
                 stamp_ns=round(tick * DT * 1e9),
@@ -86,8 +94,9 @@ def _rehearse(robot: RobotDescription, gait: str, order: Array, parameters: Gait
                 gravity_in_body=np.array([0.0, 0.0, -1.0]),
             )
         )
-        frequency = float(np.median((out.phase - phase) % 1.0)) / DT
+        if tick >= SETTLING:
+            turned += float(np.median((out.phase - phase) % 1.0))
+            granted.append(float(np.linalg.norm(out.velocity)))
         joints, phase = out.joint_position, out.phase
-        if tick > REHEARSAL // 2:
-            granted = max(granted, float(np.linalg.norm(out.velocity)))
-    return granted, frequency
+        tick += 1
+    return float(np.mean(granted)), turned / (len(granted) * DT)
