@@ -16,6 +16,7 @@ from sim_agent.study.pictures import GALLERY, take
 from sim_agent.study.plan import WORLDS, Course, courses
 from sim_agent.study.report import table
 from sim_agent.study.result import Result
+from sim_agent.study.summary import summary
 from weaver_shared.errors import InputError
 from weaver_shared.robots import load_robot, robot_names
 
@@ -33,7 +34,7 @@ def main(arguments: list[str]) -> int:
     if options.pictures:
         _photograph(robots, Path(options.pictures))
     if options.report:
-        Path(options.report).write_text(table(results))
+        Path(options.report).write_text(f"{summary(results)}\n## All figures\n{table(results)}")
     if options.json:
         print(json.dumps({"results": [result.as_dict() for result in results]}))
     elif not options.report:
@@ -82,6 +83,6 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--seed", type=int, default=1, help="of world and sensor noise (default 1)")
     parser.add_argument("--jobs", type=int, default=1, help="walks at a time, a core each (default 1)")
     parser.add_argument("--pictures", metavar="DIR", help="also photograph the robots, as PNG files in this folder")
-    parser.add_argument("--report", metavar="FILE.md", help="write the table to this file")
+    parser.add_argument("--report", metavar="FILE.md", help="write the tables, short and whole, to this file")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     return parser

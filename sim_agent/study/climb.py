@@ -48,7 +48,9 @@ def climb(robot: RobotDescription, world_name: str, gait: str, seed: int) -> Res
 def begin_climb(rig: Rig, gait: str) -> float:
     """Stand up, careful and with high feet; returns the speed to walk at, m/s, or 0 if it does not stand."""
     rig.parameters = _high_and_slow(rig.robot, gait, STEPS[rig.world.name])
-    return float(pace_of(rig.robot, gait, "forward", rig.parameters).velocity[0]) if rise(rig, gait) else 0.0
+    pace = pace_of(rig.robot, gait, "forward", rig.parameters)
+    rig.parameters = replace(rig.parameters, stride_frequency=pace.frequency)
+    return float(pace.velocity[0]) if rise(rig, gait) else 0.0
 
 
 def climbing_order(rig: Rig, speed: float) -> Array:

@@ -11,6 +11,7 @@ from sim_agent.study.plan import Course, courses
 from sim_agent.study.report import table
 from sim_agent.study.result import Result
 from sim_agent.study.speeds import pace_of, parameters_for
+from sim_agent.study.summary import summary
 from weaver_shared.errors import InputError
 from weaver_shared.robots import load_robot
 
@@ -68,6 +69,14 @@ def test_the_table_has_a_row_for_each_result_and_says_what_failed():
     assert rows[0] == "| weaver | bipod | flat | turn | 0.500 rad/s | 0.90 | – | – | 1.5 | 0.40 | yes | no | " \
         "on its belly | 3.0 |  |"  # fmt: skip
     assert [("failed" in row) for row in rows] == [False, True, True]
+
+
+def test_the_summary_has_a_row_for_each_gait_and_one_for_each_climb():
+    walks = [result_of(manoeuvre="forward", static_margin_mm=30.0), result_of(static_margin_mm=-2.4, fell=True)]
+    level, climbs = summary([*walks, result_of(world="stairs6", manoeuvre="over", sat=None)]).split("\n\n")
+    assert level.splitlines()[2:] == ["| weaver | bipod | 0.500, 0.90 | – | 0.500, 0.90 | -2 | 1.5 | yes | yes |"]
+    assert climbs.splitlines()[2] == "| weaver | stairs6 | bipod | over | 0.500, 0.90 | – | – | 1.5 | 0.40 | no |"
+    assert summary(walks).count("\n") == 3
 
 
 def test_figures_are_json():
