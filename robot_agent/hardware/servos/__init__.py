@@ -1,0 +1,1 @@
+"""Dynamixel servos: their bytes, their registers and the buses they hang on."""
