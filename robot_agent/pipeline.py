@@ -257,7 +257,7 @@ class WalkPipeline:
         if self._propagator is None:
             self._propagator = StatePropagator(self._robot.imu, initial_pose(self._robot, sensed.joint_position))
         state = self._propagator.propagate(sensed.imu)
-        if self._vigilance.odometry is None:
+        if not np.isfinite(state.age):
             # Inertia alone does not see the robot stand up: until pictures do, the legs say how high it is.
             state = replace(state, world_from_body=self._standing_on_feet(state.world_from_body, sensed))
         return state

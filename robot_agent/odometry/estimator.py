@@ -58,8 +58,9 @@ class StereoInertialOdometry:
         body_from_imu: Pose | None = None,
         front_end: TrackSource | None = None,
     ) -> None:
-        """`initial` is world_from_body at the start: its position and heading count, its tilt is measured.
+        """`initial` is world_from_body at the first picture: its position and heading count, its tilt is measured.
 
+        A body that moves on its feet before gravity is found begins where they have brought it.
         `body_from_imu` replaces the pose of the robot description (for recordings with rotated IMUs);
         `front_end` replaces our own (for recordings of tracks).
         """
@@ -90,6 +91,7 @@ class StereoInertialOdometry:
         self._stepping = False  # and did so since the last picture
         self._footless = 0.0  # s that neither pictures nor feet have told anything
         self._waited = 0.0
+        self._way_waiting: Way | None = None  # of the body's origin over its feet, from the first picture to the start
         self._history: deque[Array] = deque()
         self._flows: deque[float] = deque(maxlen=100)  # px, motion seen in the last pictures
         self._pending: list[Array] = []  # inertia since the window's newest frame
@@ -171,6 +173,9 @@ class StereoInertialOdometry:
 
     def _start(self, frame: StereoFrame, inertia: Inertia) -> OdometryEstimate:
         tracks = self._front_end.step(frame, Pose.identity())
+        if self._flows and self._pending_way is not None:
+            before, way = self._way_waiting, self._pending_way
+            self._way_waiting = way if before is None else joined(before, way, self._config.feet)
         start, samples = self._config.start, self._recent()
         duration = float(samples[:, 0].sum())
         self._waited += float(inertia.samples[:, 0].sum())
@@ -196,11 +201,15 @@ class StereoInertialOdometry:
         self._started = True
 
     def _set_attitude(self, rotation: Array) -> None:
-        """Turn the initial body about its own place to `rotation` (world_from_imu), keeping its heading."""
+        """Turn the body to `rotation` (world_from_imu) with its first heading, where it was or its feet went since."""
         body = rotation @ self._imu_from_body.rotation
         if abs(body[2, 0]) < STEEP and abs(self._initial.rotation[2, 0]) < STEEP:
             body = rotation_z(self._initial.yaw - Pose(rotation=body, position=np.zeros(3)).yaw) @ body
-        self._world_from_imu = Pose(rotation=body, position=self._initial.position) @ self._body_from_imu
+        position = self._initial.position
+        if self._way_waiting is not None:
+            first_rotation = body @ self._body_from_imu.rotation @ self._way_waiting.turn.T
+            position = position + first_rotation @ self._way_waiting.displacement
+        self._world_from_imu = Pose(rotation=body, position=position) @ self._body_from_imu
 
     def _window_begins(self, beginning: Beginning, tracks: Tracks) -> None:
         assert self._stamp is not None
@@ -310,9 +319,11 @@ class StereoInertialOdometry:
     def _walk_on(self, inertia: Inertia, end_ns: int) -> None:
         """Add what the feet went since the previous picture to what they went since the window's newest frame."""
         bias = self._window.frames.gyro_bias[self._window.newest] if self._started else np.zeros(3)
-        way = way_of(
-            self._feet.take_until(end_ns), inertia.samples, end_ns, bias, self._imu_from_body, self._config.feet
-        )
+        # Before the gyro's bias is known it is the body's origin that is followed, amid the feet: there a wrong turn
+        # does little.
+        place = self._imu_from_body.position if self._started else np.zeros(3)
+        imu_from_body = Pose(rotation=self._imu_from_body.rotation, position=place)
+        way = way_of(self._feet.take_until(end_ns), inertia.samples, end_ns, bias, imu_from_body, self._config.feet)
         self._stepping = way is not None
         self._footless = 0.0 if self._stepping else self._footless + float(inertia.samples[:, 0].sum())
         if way is None and self._may_go_on_feet() and len(inertia.samples):
