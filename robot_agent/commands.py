@@ -32,6 +32,7 @@ from weaver_shared.messages import (
     Event,
     LeaseState,
     MissionState,
+    MotionOrders,
     Severity,
     TeleopFrame,
 )
@@ -226,6 +227,23 @@ class CommandDesk:
     def mission(self, stamp_ns: int) -> MissionState:
         with self._lock:
             return self._mission.state(stamp_ns)
+
+    def motion(self) -> MotionOrders:
+        """What is asked of body and legs beyond walking."""
+        with self._lock:
+            now, posing, legs = self._situation.stamp_ns, self._motion.posing, self._legs.orders
+            velocity = self._cruise.velocity(now)
+            return MotionOrders(
+                stamp_ns=now,
+                pose=np.array(posing.manual),
+                automatic_posing=posing.automatic,
+                levelling=posing.levelling,
+                in_sequence=self._motion.in_sequence,
+                cruise_velocity=velocity if velocity is not None else np.zeros(3),
+                cruise_seconds_left=self._cruise.seconds_left(now),
+                held_legs=tuple(self._robot.leg_names[order.leg] for order in legs),
+                held_tips=np.array([order.tip for order in legs]).reshape(-1, 3),
+            )
 
     def allowed(self) -> tuple[str, ...]:
         """Commands that would be accepted from the holder now."""

@@ -54,3 +54,7 @@ class Cruise:
     def velocity(self, now_ns: int) -> NDArray[np.float64] | None:
         """The velocity (3,) to hold at the robot's time `now_ns`, None when there is none."""
         return self._velocity.copy() if now_ns < self._until_ns else None
+
+    def seconds_left(self, now_ns: int) -> float:
+        """s until the cruise ends by itself, 0 without one."""
+        return max(0.0, (self._until_ns - now_ns) * 1e-9)

@@ -108,6 +108,8 @@ class Telemetry:
             self._note_mode(tick, desk)
         if self._due(topics.LEASE):
             self._publish(topics.LEASE, desk.lease())
+        if self._due(topics.MOTION):
+            self._publish(topics.MOTION, desk.motion())
         if self._due(topics.MISSION):
             self._publish(topics.MISSION, desk.mission(tick.stamp_ns))
         self._publish_goal(tick)

@@ -13,6 +13,7 @@ from weaver_console.roster import Roster
 PERIODS_NS = {
     "tele/state": 50_000_000,
     "tele/gait": 100_000_000,
+    "tele/locomotion": 200_000_000,
     "tele/adaptation": 100_000_000,
     "tele/power": 200_000_000,
     "tele/health/": 400_000_000,

@@ -21,6 +21,7 @@ logger = logging.getLogger(__name__)
 WATCHED: tuple[Topic, ...] = (
     topics.STATE,
     topics.GAIT,
+    topics.LOCOMOTION,
     topics.ADAPTATION,
     topics.POWER,
     topics.HEALTH,
@@ -29,6 +30,7 @@ WATCHED: tuple[Topic, ...] = (
     topics.ODOMETRY,
     topics.TERRAIN,
     topics.MODE,
+    topics.MOTION,
     topics.LEASE,
     topics.MISSION,
     topics.TRUTH,

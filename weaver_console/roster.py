@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import msgspec
 
 from weaver_console.link import Link
 from weaver_console.plain import to_json
 from weaver_console.robot_record import RobotRecord
 from weaver_shared.config.adaptation import AdaptationConfig
+from weaver_shared.config.command import CommandLimits
+from weaver_shared.robots import RobotDescription, load_robot
+from weaver_shared.robots.counterpart import counterpart_of
 
 _UNITS = {"virtual_stiffness": "N/m", "stride_frequency": "Hz", "stride_height": "m"}
 
@@ -33,6 +38,7 @@ def describe(record: RobotRecord, now_ns: int) -> dict[str, object]:
         "joint_limits": robot.joint_limits.tolist() * robot.leg_count if robot else [],
         "gaits": list(robot.gaits) if robot else [],
         "parameters": _parameters(robot.adaptation if robot else AdaptationConfig()),
+        "motion": _motion(robot) if robot else None,
         "conflict": record.conflict(now_ns),
     }
 
@@ -41,6 +47,27 @@ def _parameters(config: AdaptationConfig) -> dict[str, dict[str, object]]:
     """Bounds and units of what an operator may override."""
     bounds = {name: getattr(config, name) for name in _UNITS}
     return {name: {"lower": b.lower, "upper": b.upper, "unit": _UNITS[name]} for name, b in bounds.items()}
+
+
+def _motion(robot: RobotDescription) -> dict[str, object]:
+    """What may be asked of body and legs beyond walking, in m, rad, m/s and rad/s."""
+    posing, limits = robot.locomotion.posing, CommandLimits()
+    return {
+        "largest_pose": [*posing.largest_position, *posing.largest_rotation],
+        "largest_tip": robot.locomotion.manipulation.largest_tip,
+        "largest_cruise": [limits.teleop_forward, limits.teleop_left, limits.teleop_turn],
+        "cruise_seconds": limits.cruise_seconds,
+        "postures": _postures(robot.name) if robot.posture else [],
+        "packs": robot.packed_joints is not None,
+    }
+
+
+@lru_cache
+def _postures(name: str) -> list[str]:
+    """Into which the legs of a robot of the catalogue can go."""
+    robot = load_robot(name)
+    other = counterpart_of(robot)
+    return [one.posture.name for one in (robot, other) if one is not None and one.posture is not None]
 
 
 class Roster:

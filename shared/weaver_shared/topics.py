@@ -62,6 +62,7 @@ DESIRED_GAIT = _topic("tele/desired_gait", m.AdaptationReport, 10.0, Priority.IN
 ROUTE = _topic("tele/route", m.RoutePlan, 2.0, Priority.DATA, Policy.RELIABLE)
 GOAL = _topic("state/goal", m.NavigationGoal, 2.0, Priority.DATA, Policy.RELIABLE)
 MODE = _topic("state/mode", m.ModeState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
+MOTION = _topic("state/motion", m.MotionOrders, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 LEASE = _topic("state/lease", m.LeaseState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 MISSION = _topic("state/mission", m.MissionState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 PRESENCE = _topic("state/presence", m.Presence, 1.0, Priority.DATA, Policy.RELIABLE)

@@ -5,6 +5,7 @@ from conftest import Field
 from weaver_console.roster import Roster, describe
 from weaver_shared import topics
 from weaver_shared.messages import Presence
+from weaver_shared.robots import load_robot
 
 
 def _texts(field: Field) -> list[str]:
@@ -19,6 +20,17 @@ def test_a_robot_appears_by_itself_with_its_kind(field: Field):
     assert entry["leg_names"] == ["AR", "BR", "CR", "CL", "BL", "AL"]
     assert len(entry["joint_names"]) == len(entry["joint_limits"]) == 30
     assert "hexa-2 is connected" in _texts(field)
+
+
+def test_what_may_be_asked_of_body_and_legs_is_in_the_list(field: Field):
+    field.forward(field.robot("hexa-2"), 0.2)
+    (record,) = field.link.robots()
+    motion = describe(record, field.clock.now_ns())["motion"]
+    assert motion["largest_pose"] == [0.06, 0.06, 0.05, 0.25, 0.25, 0.3]
+    assert motion["largest_cruise"] == [0.25, 0.1, 0.5]
+    assert motion["postures"] == []
+    record.description = load_robot("bullet_b_mammalian")
+    assert describe(record, field.clock.now_ns())["motion"]["postures"] == ["mammalian", "insectoid"]
 
 
 def test_a_second_of_silence_is_a_loss_and_the_next_heartbeat_a_return(field: Field):

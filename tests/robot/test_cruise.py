@@ -111,3 +111,19 @@ def test_what_makes_no_sense_is_refused(ada: Operator, fields: dict[str, object]
 def test_a_sitting_robot_does_not_cruise(ada: Operator) -> None:
     ada.see(0.1, "READY")
     assert "must stand" in ada.says(CommandName.START_CRUISE, name="forward", value=0.1).reason
+
+
+def test_everybody_is_told_what_body_and_legs_are_asked(ada: Operator) -> None:
+    ada.says(CommandName.SET_POSE, name="z", value=0.02)
+    ada.says(CommandName.SET_POSING, name="levelling", value=1.0)
+    ada.says(CommandName.START_CRUISE, name="forward", value=0.1, seconds=5.0)
+    ada.see(2.0)
+    told = ada.desk.motion()
+    np.testing.assert_allclose(told.pose, [0.0, 0.0, 0.02, 0.0, 0.0, 0.0])
+    np.testing.assert_allclose(told.cruise_velocity, [0.1, 0.0, 0.0])
+    assert told.cruise_seconds_left == pytest.approx(3.0)
+    assert (told.levelling, told.automatic_posing, told.in_sequence, told.held_legs) == (True, False, False, ())
+    assert told.held_tips.shape == (0, 3)
+    ada.see(4.0)
+    assert ada.desk.motion().cruise_seconds_left == 0.0
+    assert not ada.desk.motion().cruise_velocity.any()

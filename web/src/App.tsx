@@ -1,6 +1,7 @@
 /** The page: top bar, views on the left, panels on the right. */
 import { useEffect } from "react";
 import { AdaptationPanel } from "./adaptation/AdaptationPanel";
+import { BodyPanel } from "./body/BodyPanel";
 import { startSession } from "./console/session";
 import { useConsole } from "./console/store";
 import { EventLog } from "./events/EventLog";
@@ -32,6 +33,7 @@ export function App() {
             <MissionPanel />
             <RobotPanel />
             <TeleopPanel />
+            <BodyPanel />
           </div>
           <div className="panel-column">
             <AdaptationPanel />

@@ -126,6 +126,21 @@ class LocomotionState:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class MotionOrders:
+    """What the operator asked of body and legs beyond walking, as the robot holds it, 5 Hz."""
+
+    stamp_ns: int
+    pose: Array  # (6,) x, y, z (m), roll, pitch, yaw (rad) of the body against its un-posed place
+    automatic_posing: bool
+    levelling: bool
+    in_sequence: bool  # stand up and sit down with legs in alternating groups
+    cruise_velocity: Array  # (3,) forward, left (m/s), turn (rad/s); zeros without a cruise
+    cruise_seconds_left: float  # s; 0 without a cruise
+    held_legs: tuple[str, ...]  # in the operator's hands
+    held_tips: Array  # (held, 3) m in body from where each was lifted to
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PowerState:
     stamp_ns: int
     battery_voltage: float

@@ -1,5 +1,6 @@
 /** An override as the operator sees it: at once as asked, then as the robot reports it. */
-import { useEffect, useRef, useState } from "react";
+import { useEffect, useState } from "react";
+import { useThrottle } from "../components/useThrottle";
 import { command } from "../console/commands";
 import { useLatest } from "../console/useLatest";
 import type { Parameter } from "./parameters";
@@ -56,19 +57,5 @@ export function useOverride({ name, lower, upper }: Parameter, seconds: number):
       setValue(wanted);
       send(() => void ask(wanted));
     },
-  };
-}
-
-/** Runs the newest of the actions it is given, at most one a period. */
-function useThrottle(period: number): (action: () => void) => void {
-  const newest = useRef<(() => void) | null>(null);
-  const timer = useRef<ReturnType<typeof setTimeout> | undefined>(undefined);
-  useEffect(() => () => clearTimeout(timer.current), []);
-  return (action) => {
-    newest.current = action;
-    timer.current ??= setTimeout(() => {
-      timer.current = undefined;
-      newest.current?.();
-    }, period);
   };
 }

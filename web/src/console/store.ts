@@ -5,8 +5,10 @@ import type {
   GaitState,
   Health,
   LeaseState,
+  LocomotionState,
   MissionState,
   ModeState,
+  MotionOrders,
   PowerState,
   RobotState,
   TruthState,
@@ -19,7 +21,9 @@ export interface Topics {
   "tele/gait": GaitState;
   "tele/adaptation": AdaptationReport;
   "tele/power": PowerState;
+  "tele/locomotion": LocomotionState;
   "state/mode": ModeState;
+  "state/motion": MotionOrders;
   "state/lease": LeaseState;
   "state/mission": MissionState;
   "truth/state": TruthState;

@@ -26,6 +26,18 @@ export const COMMAND_NAMES = [
   "set_override",
   "clear_override",
   "set_gait",
+  "start_cruise",
+  "stop_cruise",
+  "set_start_up",
+  "change_posture",
+  "set_pose",
+  "clear_pose",
+  "lift_leg",
+  "lower_leg",
+  "move_tip",
+  "move_joint",
+  "place_foot",
+  "set_posing",
 ] as const;
 export type CommandName = (typeof COMMAND_NAMES)[number];
 
@@ -88,6 +100,30 @@ export interface GaitState {
   parameters_frequency: Maybe;
   parameters_height: Maybe;
   parameters_stiffness: Maybe;
+}
+
+export interface LocomotionState {
+  stamp_ns: number;
+  posture: string;
+  stability: "good" | "warn" | "slow" | "refuse";
+  stability_margin: Maybe;
+  energy_margin: Maybe;
+  slipping: boolean[];
+  leg_stages: string[];
+  lift_margins: Maybe[];
+  leg_posture: string;
+}
+
+export interface MotionOrders {
+  stamp_ns: number;
+  pose: Maybe[];
+  automatic_posing: boolean;
+  levelling: boolean;
+  in_sequence: boolean;
+  cruise_velocity: Maybe[];
+  cruise_seconds_left: Maybe;
+  held_legs: string[];
+  held_tips: Maybe[][];
 }
 
 export interface GaitParameters {

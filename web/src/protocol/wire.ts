@@ -15,6 +15,17 @@ export interface Hello {
   schema: number;
 }
 
+/** What may be asked of body and legs beyond walking, in m, rad, m/s and rad/s. */
+export interface MotionLimits {
+  /** Largest amount either way of x, y, z, roll, pitch, yaw. */
+  largest_pose: number[];
+  largest_tip: number;
+  largest_cruise: number[];
+  cruise_seconds: number;
+  postures: string[];
+  packs: boolean;
+}
+
 export interface RobotEntry {
   id: string;
   session: string;
@@ -33,6 +44,7 @@ export interface RobotEntry {
   joint_limits: [number, number][];
   /** What an operator may set of the adapted parameters; absent names are not adjustable. */
   parameters?: Record<string, { lower: number; upper: number; unit: string }>;
+  motion?: MotionLimits | null;
   conflict: string;
 }
 
