@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
 import subprocess
 import sys
 import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -45,17 +47,19 @@ class Product:
 
 
 @pytest.fixture(scope="module")
-def start_product() -> Iterator[Callable[..., Product]]:
+def start_product(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[..., Product]]:
     """Starts `weaver up` with the given options; ended, with all it started, after the module's tests."""
+    data = tmp_path_factory.mktemp("data")
     with contextlib.ExitStack() as stack:
-        yield lambda *options: stack.enter_context(_running(*options))
+        yield lambda *options: stack.enter_context(_running(data, *options))
 
 
 @contextlib.contextmanager
-def _running(*options: str) -> Iterator[Product]:
+def _running(data: Path, *options: str) -> Iterator[Product]:
     port = free_port()
     command = [sys.executable, "-m", "weaver_shared.command_line", "up", "--no-browser", "--port", str(port), *options]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    environment = {**os.environ, "XDG_DATA_HOME": str(data)}
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
     assert process.stdout is not None
     assert process.stderr is not None
     try:

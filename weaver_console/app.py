@@ -10,14 +10,17 @@ import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from importlib.metadata import version
 from pathlib import Path
+from typing import Annotated
 from urllib.parse import parse_qs
 
-from fastapi import FastAPI, Request, Response, WebSocket, WebSocketDisconnect
+from fastapi import FastAPI, Query, Request, Response, WebSocket, WebSocketDisconnect
+from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, HTMLResponse, JSONResponse, RedirectResponse
 
 from weaver_console import built_page
 from weaver_console.access import COOKIE, VALID_S, Access
 from weaver_console.hub import Hub
+from weaver_console.mission_api import add_mission_api
 from weaver_console.page_session import PageSession
 from weaver_console.roster import describe
 from weaver_console.scene_page import scene_page
@@ -63,11 +66,21 @@ def create_app(hub: Hub, access: Access, *, folder: Path | None = None) -> FastA
     app = FastAPI(title="Weaver Console", version=version("weaver-hexapod"), lifespan=lifespan, docs_url=None,
                   redoc_url=None)  # fmt: skip
     app.middleware("http")(_guard(access, hub))
+    app.exception_handler(RequestValidationError)(_not_valid)
     _add_api(app, hub)
+    add_mission_api(app, hub.missions)
     _add_login(app, access)
     _add_sockets(app, hub, access)
     _add_pages(app, hub, folder)
     return app
+
+
+async def _not_valid(_: Request, error: Exception) -> Response:
+    """What is wrong with a request, in a sentence; what was sent is not sent back, it may not even be JSON."""
+    assert isinstance(error, RequestValidationError)
+    first = error.errors()[0]
+    where = ".".join(str(part) for part in first["loc"][1:])
+    return JSONResponse({"error": f"{where or first['loc'][0]}: {first['msg']}"}, status_code=422)
 
 
 def _guard(
@@ -120,6 +133,14 @@ def _add_api(app: FastAPI, hub: Hub) -> None:
         now_ns = hub.link.clock.now_ns()
         with hub.link.lock:
             return {"robots": [describe(record, now_ns) for record in hub.link.robots()]}
+
+    @app.get("/api/events")
+    async def events(
+        before: Annotated[float, Query(allow_inf_nan=False)] = 1e12,
+        count: Annotated[int, Query(ge=1, le=1000)] = 200,
+    ) -> dict[str, object]:
+        past = await asyncio.to_thread(hub.archive.latest, before=before, count=count)
+        return {"events": [event.to_page() for event in past]}
 
 
 def _add_login(app: FastAPI, access: Access) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from weaver_console.access import Access
 from weaver_console.app import create_app
+from weaver_console.database import Database, data_folder
 from weaver_console.hub import Hub
 from weaver_console.link import Link
 from weaver_console.web_server import web_server
@@ -24,7 +25,8 @@ def main(arguments: list[str]) -> int:
     listener = _listen(options.host, options.port)
     try:
         link = Link(ZenohBus(listen=options.listen or ["tcp/127.0.0.1:7447"], connect=options.connect or []))
-        app = create_app(Hub(link, scenes=not options.no_scene), access)
+        database = Database(options.data / "console.sqlite3")
+        app = create_app(Hub(link, database=database, scenes=not options.no_scene), access)
         print(f"Weaver Console: {_address(options.host, listener)}", flush=True)
         asyncio.run(web_server(app).serve(sockets=[listener]))
     finally:
@@ -43,6 +45,8 @@ def _parser() -> argparse.ArgumentParser:
     listen = "Zenoh endpoint to listen on (tcp/127.0.0.1:7447); may be repeated"
     parser.add_argument("--listen", action="append", metavar="ENDPOINT", help=listen)
     parser.add_argument("--password-file", type=Path, help="file whose first line is the password")
+    data = "folder of the database with missions and events (default %(default)s)"
+    parser.add_argument("--data", type=Path, default=data_folder(), help=data)
     parser.add_argument("--no-scene", action="store_true", help="serve no 3-D view, only the 2-D map")
     return parser
 

@@ -15,8 +15,7 @@ SHOWN_AT_START = 200
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LoggedEvent:
-    number: int
+class PastEvent:
     robot: str  # empty: the console itself
     stamp_ns: int  # robot's clock, 0 for the console's own
     time: float  # unix seconds on the console's computer
@@ -27,6 +26,11 @@ class LoggedEvent:
     def to_page(self) -> dict[str, object]:
         names = ("robot", "stamp_ns", "time", "severity", "source", "text")
         return {name: getattr(self, name) for name in names}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LoggedEvent(PastEvent):
+    number: int
 
 
 class EventLog:
@@ -49,6 +53,14 @@ class EventLog:
                 text=text,
             )
             self._events.append(event)
+
+    def restore(self, past: PastEvent) -> int:
+        """Enter an event of an earlier run, before any of this one; returns its number."""
+        with self._lock:
+            self._number += 1
+            names = ("robot", "stamp_ns", "time", "severity", "source", "text")
+            self._events.append(LoggedEvent(number=self._number, **{name: getattr(past, name) for name in names}))
+            return self._number
 
     def since(self, number: int) -> list[LoggedEvent]:
         """Events after `number`, oldest first; a reader that was away too long misses the oldest."""

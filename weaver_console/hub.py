@@ -13,7 +13,10 @@ import time
 
 from weaver_console import operator_names
 from weaver_console.command_desk import CommandDesk
+from weaver_console.database import Database
+from weaver_console.event_archive import EventArchive
 from weaver_console.link import Link
+from weaver_console.missions import MissionStore
 from weaver_console.page_session import PageSession
 from weaver_console.roster import Roster
 from weaver_console.scene.page_scene import PageScene
@@ -33,8 +36,19 @@ SCENE_KEPT = 10.0
 
 
 class Hub:
-    def __init__(self, link: Link, *, scenes: bool = True, random_source: random.Random | None = None) -> None:
+    def __init__(
+        self,
+        link: Link,
+        *,
+        database: Database | None = None,
+        scenes: bool = True,
+        random_source: random.Random | None = None,
+    ) -> None:
+        """Without a `database` missions and events last as long as the console."""
         self.link = link
+        self._database = database or Database(None)
+        self.missions = MissionStore(self._database)
+        self.archive = EventArchive(self._database, link.events)
         self.roster = Roster(link)
         self.with_scenes = scenes
         self.started = time.monotonic()
@@ -61,6 +75,8 @@ class Hub:
             self.link.check()
             self.roster.refresh()
             self._close_orphans()
+            if self.archive.behind:
+                await asyncio.to_thread(self.archive.flush)
             await asyncio.sleep(CHECK_PERIOD)
 
     def stop(self) -> None:
@@ -71,6 +87,8 @@ class Hub:
             scene.close()
         self._scenes.clear()
         self._desk.close()
+        self.archive.flush()
+        self._database.close()
 
     def enter(self, page: str, operator: str) -> PageSession:
         """A page connects, or again with the same id; an empty operator gets an invented name."""

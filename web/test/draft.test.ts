@@ -25,6 +25,13 @@ describe("a mission draft", () => {
     expect(xs(after(...three, { type: "reorder", from: 0, to: 2 }))).toEqual([2, 3, 1]);
   });
 
+  it("can take a loaded mission back", () => {
+    const loaded = after(...three, { type: "load", waypoints: [at(7.0004)] });
+    expect(xs(loaded)).toEqual([7]);
+    expect(xs(reduceDraft(loaded, { type: "undo" }))).toEqual([1, 2, 3]);
+    expect(reduceDraft(loaded, { type: "load", waypoints: [at(7)] })).toBe(loaded);
+  });
+
   it("ignores places that do not exist", () => {
     const draft = after(...three);
     for (const action of [

@@ -9,6 +9,7 @@ import { useDraft } from "./draftStore";
 import { MissionButtons } from "./MissionButtons";
 import { MissionProgress } from "./MissionProgress";
 import { pathLength } from "./path";
+import { SavedMissions } from "./SavedMissions";
 import { WaypointList } from "./WaypointList";
 
 export function MissionPanel() {
@@ -49,6 +50,7 @@ export function MissionPanel() {
         <MissionButtons unsent={unsent} />
       </div>
       <MissionProgress />
+      <SavedMissions />
     </Panel>
   );
 }

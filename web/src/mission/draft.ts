@@ -16,6 +16,7 @@ export type DraftAction =
   | { type: "reorder"; from: number; to: number }
   | { type: "clear" }
   | { type: "adopt"; waypoints: readonly Waypoint[] }
+  | { type: "load"; waypoints: readonly Waypoint[] }
   | { type: "select"; index: number | null }
   | { type: "undo" }
   | { type: "redo" };
@@ -48,6 +49,8 @@ export function reduceDraft(draft: Draft, action: DraftAction): Draft {
       return reorder(draft, action.from, action.to);
     case "clear":
       return waypoints.length === 0 ? draft : edited(draft, [], null);
+    case "load":
+      return sameWaypoints(waypoints, action.waypoints) ? draft : edited(draft, action.waypoints.map(rounded), null);
     case "adopt":
       return adopt(draft, action.waypoints.map(rounded));
     case "select":
