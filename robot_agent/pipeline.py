@@ -123,10 +123,10 @@ class VisionPipeline:
 
     def _feel(self, contacts: FootContacts | None, odometry: OdometryEstimate) -> None:
         """Footholds enter the map, and speak of the ground, while it is known where they are."""
-        footholds = self._feet.step(contacts, odometry.world_from_body)
+        footholds, standing = self._feet.step(contacts, odometry.world_from_body), self._feet.standing
         if odometry.quality not in (OdometryQuality.GOOD, OdometryQuality.DEGRADED):
-            footholds = footholds[:0]
-        self._felt = self._felt_ground.step(footholds, odometry.position_in_world, odometry.stamp_ns)
+            footholds, standing = footholds[:0], np.full_like(standing, np.nan)
+        self._felt = self._felt_ground.step(standing, odometry.position_in_world, odometry.stamp_ns)
         if len(footholds):
             self._map.touch(footholds, odometry.stamp_ns)
 

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from robot_agent.mapping.files import MapSnapshot
 from robot_agent.mapping.sliding_features import cell_features
+from sim_agent.true_indices import cell_tops
 from sim_agent.worlds import World
 from weaver_shared.config.mapping import MappingConfig
 
 Array = NDArray[np.float64]
 
-SAMPLES = 5  # along each edge of a cell: the map keeps a cell's top, so the truth's top is sought too
 FEWEST = 50  # cells without which nothing is said of a segment
 QUANTILE = 0.9
 
@@ -45,7 +45,7 @@ def compare(snapshot: MapSnapshot, world: World, config: MappingConfig) -> dict[
     The true features are those of eqs. 7 and 8 on the true tops, by the same running sums and without noise.
     """
     x, y = _centres(snapshot)
-    top = _tops(world, x, y, snapshot.cell)
+    top = cell_tops(world, x, y, snapshot.cell)
     truth = cell_features(top.astype(np.float32), np.zeros(top.shape, dtype=np.float32), config)
     names = np.array([[world.segment_at(float(place)) or ""] for place in x])
     on_segment = np.broadcast_to(names, top.shape)
@@ -95,13 +95,3 @@ def _centres(snapshot: MapSnapshot) -> tuple[Array, Array]:
     x = (snapshot.row0 + np.arange(rows) + 0.5) * snapshot.cell
     y = (snapshot.column0 + np.arange(columns) + 0.5) * snapshot.cell
     return np.asarray(x), np.asarray(y)
-
-
-def _tops(world: World, x: Array, y: Array, cell: float) -> Array:
-    """Highest true elevation of every cell (rows, columns)."""
-    offsets = ((np.arange(SAMPLES) + 0.5) / SAMPLES - 0.5) * cell
-    top = np.full((len(x), len(y)), -np.inf)
-    for dx in offsets:
-        for dy in offsets:
-            top = np.maximum(top, world.elevation((x + dx)[:, None], (y + dy)[None, :]))
-    return top

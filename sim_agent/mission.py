@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from robot_agent.adaptation import safe_gait
+from collections.abc import Mapping
+
 from robot_agent.loops import CONTROL_RATE
 from sim_agent.lock_step import LockStep
 from weaver_shared.errors import InputError
@@ -15,21 +16,20 @@ def begin_mission(
     run: LockStep,
     waypoints: tuple[Waypoint, ...],
     *,
-    adaptive: bool = True,
+    constant: Mapping[str, float] | None = None,
     gait: str = "tripod",
     find_way: bool = False,
 ) -> None:
     """Stand up and start walking to `waypoints`, m in the robot's own world.
 
-    Not `adaptive`: the parameters are fixed at the paper's non-adaptive set, constant and tuned to the roughest part.
+    `constant` gait parameters by their names are held all the way, as in the paper's non-adaptive set; None: adapted.
     `find_way`: to the last waypoint by a way found over the map. Raises InputError when the robot refuses an order.
     """
     run.step()
     _must(run.operator.send(CommandName.TAKE_CONTROL))
     _must(run.operator.send(CommandName.STAND))
-    if not adaptive:
-        for name, value in safe_gait(run.robot.adaptation).items():
-            _must(run.operator.send(CommandName.SET_OVERRIDE, name=name, value=value))
+    for name, value in (constant or {}).items():
+        _must(run.operator.send(CommandName.SET_OVERRIDE, name=name, value=value))
     _must(run.operator.send(CommandName.SET_GAIT, name=gait))
     _must(run.operator.send(CommandName.SET_MISSION, name="auto" if find_way else "", waypoints=waypoints))
     for _ in range(round(STAND_SECONDS * CONTROL_RATE)):

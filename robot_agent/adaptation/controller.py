@@ -42,11 +42,13 @@ class AdaptationController:
         """Parameters for now; `dt` s since the last call. `applied` equals `desired`: overrides come later.
 
         Pictures of low health leave the ground to the feet, who know where they were and not where they go: their
-        figures count with one standard deviation more. Ground unknown to both gives the whole safe gait.
+        figures count with one standard deviation more. Good pictures of what lies `ahead` join them where the ground
+        under the robot was never seen, as at the start; the worse of the two counts. Ground unknown to both gives the
+        whole safe gait.
         """
         config = self._config
         self._health += (ahead.health - self._health) * (1.0 - math.exp(-dt / config.health_time))
-        source, ground = self._rule(worst, felt)
+        source, ground = self._rule(worst, ahead, felt)
         self._roughness = _with_backlash(self._roughness, ground.roughness, config.backlash)
         self._step_height = _with_backlash(self._step_height, ground.step_height, config.backlash)
         known = source != "none"
@@ -70,18 +72,15 @@ class AdaptationController:
             overridden=(),
         )
 
-    def _rule(self, worst: Ground, felt: Ground | None) -> tuple[str, Ground]:
+    def _rule(self, worst: Ground, ahead: TerrainEstimate, felt: Ground | None) -> tuple[str, Ground]:
         """Who knows the ground, and what they say of it."""
-        if self._health >= self._config.smallest_health:
-            return ("none" if math.isnan(worst.roughness) else "vision"), worst
-        if felt is None or math.isnan(felt.roughness):
+        sighted = self._health >= self._config.smallest_health
+        if sighted and not math.isnan(worst.roughness):
+            return "vision", worst
+        if felt is None or math.isnan(felt.roughness) or (sighted and math.isnan(ahead.roughness)):
             return "none", worst
-        return "feet", _Indices(
-            min(1.0, felt.roughness + felt.roughness_sigma),
-            felt.roughness_sigma,
-            min(1.0, felt.step_height + felt.step_height_sigma),
-            felt.step_height_sigma,
-        )
+        under = _with_doubt(felt)
+        return "feet", _worse_of(under, _with_doubt(ahead)) if sighted else under
 
     def unknown(self, stamp_ns: int, dt: float) -> AdaptationReport:
         """Parameters on their way to the safe gait, for when nothing is known of the ground at all."""
@@ -100,6 +99,22 @@ class _Indices:
     roughness_sigma: float = math.nan
     step_height: float = math.nan
     step_height_sigma: float = math.nan
+
+
+def _with_doubt(ground: Ground) -> _Indices:
+    """Its figures with one standard deviation more."""
+    return _Indices(
+        min(1.0, ground.roughness + ground.roughness_sigma),
+        ground.roughness_sigma,
+        min(1.0, ground.step_height + ground.step_height_sigma),
+        ground.step_height_sigma,
+    )
+
+
+def _worse_of(one: _Indices, other: _Indices) -> _Indices:
+    rougher = max(one, other, key=lambda ground: ground.roughness)
+    higher = max(one, other, key=lambda ground: ground.step_height)
+    return _Indices(rougher.roughness, rougher.roughness_sigma, higher.step_height, higher.step_height_sigma)
 
 
 def _unseen(stamp_ns: int) -> TerrainEstimate:

@@ -25,21 +25,24 @@ Array = NDArray[np.float64]
 
 
 class FeltGround:
-    """Keeps the footholds of the last strides and judges the ground by those about the robot."""
+    """Judges the ground by the feet that stand and by where they stood in the last strides."""
 
     def __init__(self, config: FeltConfig, features: FeatureConfig) -> None:
         self._config = config
         self._features = features
         self._stamps: list[int] = []
-        self._points: list[Array] = []
+        self._points: list[Array] = []  # left behind
+        self._standing = np.zeros((0, 3))  # (legs, 3), NaN of feet that do not stand
 
-    def step(self, footholds: Array, place: Array, stamp_ns: int) -> Roughness:
-        """Take new `footholds` (k, 3) and judge the ground about `place` (at least x, y), world, m; NaN if unknown."""
-        for point in footholds[np.isfinite(footholds).all(axis=1)]:
-            self._stamps.append(stamp_ns)
-            self._points.append(point)
+    def step(self, standing: Array, place: Array, stamp_ns: int) -> Roughness:
+        """Judge the ground about `place` (at least x, y); `standing` (legs, 3) are the feet that stand, NaN the others.
+
+        All in world, m. NaN if unknown.
+        """
+        self._leave_behind(standing, stamp_ns)
         self._forget(place, stamp_ns)
-        points = np.array(self._points)
+        firm = standing[np.isfinite(standing).all(axis=1)]
+        points = np.concatenate([np.reshape(self._points, (-1, 3)), firm])
         if len(points) < self._config.fewest:
             return Roughness.unknown()
         x, y, z = points.T
@@ -65,6 +68,14 @@ class FeltGround:
             step_height=step_height,
             step_height_sigma=min(1.0, relative * step_height + step_height_of(left_over, features)),
         )
+
+    def _leave_behind(self, standing: Array, stamp_ns: int) -> None:
+        """Feet that stood and stand no more have left their last place to memory."""
+        if len(self._standing):
+            left = np.isfinite(self._standing).all(axis=1) & ~np.isfinite(standing).all(axis=1)
+            self._stamps += [stamp_ns] * int(left.sum())
+            self._points += list(self._standing[left])
+        self._standing = standing
 
     def _forget(self, place: Array, stamp_ns: int) -> None:
         kept = [

@@ -12,13 +12,15 @@ from typing import Any
 
 from tqdm import tqdm
 
+from sim_agent.report_pages import in_columns
 from sim_agent.testbed_study.cluster import walk_all
 from sim_agent.testbed_study.figures import StudyFigures, study_figures
-from sim_agent.testbed_study.plan import plan
+from sim_agent.testbed_study.fixed_set import fixed_set
+from sim_agent.testbed_study.plan import PlannedWalk, adaptive_walks, fixed_walks
 from sim_agent.testbed_study.plots import draw_all
 from sim_agent.testbed_study.report import overall_table, segment_table, write_report
 from sim_agent.testbed_study.store import RecordStore
-from sim_agent.testbed_study.walk import WalkRecord, outcome_of
+from sim_agent.testbed_study.walk import WalkRecord, outcome_of, walk_testbed
 from sim_agent.worlds import make_world
 from weaver_shared.errors import InputError
 from weaver_shared.robots import load_robot
@@ -36,29 +38,40 @@ def main(arguments: list[str]) -> int:
     records = _records(options, store)
     world, mass = make_world("testbed", options.world_seed), load_robot().mass
     figures = study_figures(records, world, mass)
-    written = write_report(store.folder, figures, draw_all(records, world, mass, store.folder))
+    constant = records[-1].plan.parameters or {}
+    written = write_report(store.folder, figures, draw_all(records, world, mass, store.folder), constant)
     if options.json:
         print(json.dumps(_finite(_as_json(figures, records)), allow_nan=False))
         return 0
     for table in (overall_table(figures), segment_table(figures)):
-        widths = [max(len(row[column]) for row in table) for column in range(len(table[0]))]
-        for row in table:
-            print("  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)))
-        print()
+        print(in_columns(table), end="\n\n")
     print("report:", ", ".join(str(path) for path in written))
     return 0
 
 
 def _records(options: argparse.Namespace, store: RecordStore) -> list[WalkRecord]:
-    """Every planned walk's record: those of earlier runs from the store, the others walked now."""
-    walks = plan(options.runs, options.seed, options.world_seed, options.distance)
+    """Every planned walk's record: those of earlier runs from the store, the others walked now.
+
+    The first adaptive walk tells the constant parameters of the fixed ones, so these come after.
+    """
+    adaptive = adaptive_walks(options.runs, options.seed, options.world_seed, options.distance)
+    with tqdm(total=2 * options.runs, unit=" walks", file=sys.stderr) as bar:
+        records = _walked(adaptive, options, store, bar)
+        constant = fixed_set(records[0], load_robot().adaptation)
+        records += _walked(fixed_walks(adaptive, constant), options, store, bar)
+    return records
+
+
+def _walked(
+    walks: list[PlannedWalk], options: argparse.Namespace, store: RecordStore, bar: tqdm[Any]
+) -> list[WalkRecord]:
     records = {walk.name: record for walk in walks if (record := store.load(walk)) is not None}
+    bar.update(len(records))
     missing = [walk for walk in walks if walk.name not in records]
-    with tqdm(total=len(walks), initial=len(records), unit=" walks", file=sys.stderr) as bar:
-        for record in walk_all(missing, options.jobs, options.scheduler):
-            store.save(record)
-            records[record.plan.name] = record
-            bar.update()
+    for record in walk_all(missing, walk_testbed, options.jobs, options.scheduler):
+        store.save(record)
+        records[record.plan.name] = record
+        bar.update()
     return [records[walk.name] for walk in walks]
 
 

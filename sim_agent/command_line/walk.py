@@ -12,6 +12,7 @@ from typing import Any
 
 from tqdm import tqdm
 
+from robot_agent.adaptation import safe_gait
 from robot_agent.loops import CONTROL_RATE
 from robot_agent.mapping.files import MapSnapshot, load_map, save_map
 from sim_agent.lock_step import LockStep
@@ -56,7 +57,8 @@ def walk(options: argparse.Namespace, *, tell_truth: bool = True) -> dict[str, A
 
 
 def _mission(run: LockStep, log: RunLog, goal: Waypoint, options: argparse.Namespace) -> bool:
-    begin_mission(run, (goal,), adaptive=options.adapt == "on", gait=options.gait, find_way=options.navigate == "auto")
+    constant = None if options.adapt == "on" else safe_gait(run.robot.adaptation)
+    begin_mission(run, (goal,), constant=constant, gait=options.gait, find_way=options.navigate == "auto")
     with tqdm(total=0, unit=" s", disable=not sys.stderr.isatty(), bar_format="{desc}") as bar:
         for tick in range(round(options.timeout * CONTROL_RATE)):
             moment = run.step()

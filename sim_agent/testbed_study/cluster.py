@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from typing import Protocol, TypeVar
 
 from distributed import Client, LocalCluster, as_completed
 
-from sim_agent.testbed_study.plan import PlannedWalk
-from sim_agent.testbed_study.walk import WalkRecord, walk_testbed
 from weaver_shared.errors import InputError
 
 CONNECT_SECONDS = 20.0
+CLOSE_SECONDS = 30.0
+
+
+class Planned(Protocol):
+    @property
+    def name(self) -> str: ...
+
+
+Plan = TypeVar("Plan", bound=Planned)
+Record = TypeVar("Record")
 
 
 def walk_all(
-    walks: list[PlannedWalk],
-    jobs: int,
-    scheduler: str | None,
-    walk: Callable[[PlannedWalk], WalkRecord] = walk_testbed,
-) -> Iterator[WalkRecord]:
+    walks: Sequence[Plan], walk: Callable[[Plan], Record], jobs: int, scheduler: str | None
+) -> Iterator[Record]:
     """Records in the order they finish. `jobs` processes here, or the workers of the cluster at `scheduler`.
 
     Raises InputError when no scheduler answers there. A worker that dies gives its walk to another one.
@@ -27,7 +33,7 @@ def walk_all(
     if not walks:
         return
     with _client(jobs, scheduler) as client:
-        futures = client.map(walk, walks, pure=False, key=[plan.name for plan in walks])
+        futures = client.map(walk, list(walks), pure=False, key=[plan.name for plan in walks])
         for future in as_completed(futures):
             yield future.result()
 
@@ -41,10 +47,13 @@ def _client(jobs: int, scheduler: str | None) -> Iterator[Client]:
         except (OSError, TimeoutError, ValueError) as error:
             raise InputError(f"no Dask scheduler answers at {scheduler}: {error}") from error
         return
-    with (
-        LocalCluster(
-            n_workers=jobs, threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address=None
-        ) as cluster,
-        Client(cluster) as client,
-    ):
-        yield client
+    cluster = LocalCluster(
+        n_workers=jobs, threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address=None
+    )
+    try:
+        with Client(cluster) as client:
+            yield client
+    finally:
+        # All records have come by now: workers of a busy machine that are slow to end are no failure.
+        with suppress(TimeoutError):
+            cluster.close(timeout=CLOSE_SECONDS)

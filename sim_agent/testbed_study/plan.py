@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -25,12 +25,13 @@ class PlannedWalk:
     seed: int
     world_seed: int
     distance: float  # m along the course
+    parameters: dict[str, float] | None = None  # of the gait, held all the way; None: adapted
 
     @property
     def name(self) -> str:
         return f"{self.kind}-{self.seed:03d}"
 
-    def as_dict(self) -> dict[str, str | int | float]:
+    def as_dict(self) -> dict[str, Any]:
         return asdict(self)
 
     def world(self) -> World:
@@ -42,10 +43,14 @@ class PlannedWalk:
         return replace(world, start=start, friction=float(random.uniform(*FRICTION_RANGE)))
 
 
-def plan(runs: int, seed: int, world_seed: int, distance: float) -> list[PlannedWalk]:
-    """`runs` adaptive and as many fixed walks with seeds from `seed` on, in turns."""
+def adaptive_walks(runs: int, seed: int, world_seed: int, distance: float) -> list[PlannedWalk]:
+    """`runs` adaptive walks with seeds from `seed` on."""
     return [
-        PlannedWalk(kind=kind, seed=number, world_seed=world_seed, distance=distance)
+        PlannedWalk(kind="adaptive", seed=number, world_seed=world_seed, distance=distance)
         for number in range(seed, seed + runs)
-        for kind in KINDS
     ]
+
+
+def fixed_walks(adaptive: list[PlannedWalk], parameters: dict[str, float]) -> list[PlannedWalk]:
+    """The counterparts of adaptive walks, with constant gait parameters."""
+    return [replace(walk, kind="fixed", parameters=parameters) for walk in adaptive]

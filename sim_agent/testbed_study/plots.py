@@ -53,6 +53,7 @@ def _odometry_error(records: list[WalkRecord], world: World) -> Figure:
     axes.fill_between(places, 1000 * (mean - spread), 1000 * (mean + spread), color="0.85", label="± 1 σ")
     axes.plot(places, 1000 * mean, color="black", label=f"mean of {len(records)} walks")
     axes.set_ylabel("odometry error, mm")
+    axes.set_ylim(bottom=0.0)
     _course(axes, world)
     axes.legend(loc="upper left", frameon=False)
     return figure
@@ -154,16 +155,17 @@ def _cost_along(rows: dict[str, Array], places: Array, mass: float) -> Array:
 
 
 def _error(record: WalkRecord) -> Array:
-    """Distance (m) of the estimated from the true place, the robot's world laid over the course where it began."""
+    """Distance (m) of the estimated from the true place, the two laid over each other at the start."""
     rows = record.rows
-    x, y, heading = record.plan.world().start
+    _, _, heading = record.plan.world().start
     c, s = np.cos(heading), np.sin(heading)
-    estimated_x = x + c * rows["estimated_x"] - s * rows["estimated_y"]
-    estimated_y = y + s * rows["estimated_x"] + c * rows["estimated_y"]
-    error: Array = np.sqrt(
-        (estimated_x - rows["x"]) ** 2 + (estimated_y - rows["y"]) ** 2 + (rows["estimated_z"] - rows["z"]) ** 2
+    estimated = (
+        c * rows["estimated_x"] - s * rows["estimated_y"],
+        s * rows["estimated_x"] + c * rows["estimated_y"],
+        rows["estimated_z"],
     )
-    return error
+    apart = np.array(estimated) - np.array([rows["x"], rows["y"], rows["z"]])
+    return np.asarray(np.linalg.norm(apart - apart[:, :1], axis=0))
 
 
 def _course(axes: Any, world: World, *, label: bool = True) -> None:

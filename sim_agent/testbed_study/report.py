@@ -1,18 +1,14 @@
-"""The study as Markdown and as one HTML page that needs nothing beside it."""
+"""The study's tables, and what is to be known when reading them."""
 
 from __future__ import annotations
 
-import base64
-import html
 import math
 from pathlib import Path
 
+from sim_agent.report_pages import Section, Table, write_pages
 from sim_agent.testbed_study import paper
 from sim_agent.testbed_study.figures import KindFigures, StudyFigures
 from weaver_shared.config.adaptation import AdaptationConfig
-from weaver_shared.errors import InputError
-
-Table = list[tuple[str, ...]]
 
 CAPTIONS = {
     "9": "Odometry error along the course (the paper's Fig. 9, lower plot).",
@@ -26,28 +22,29 @@ NOTES = (
     "Cost of transport counts the whole supply with the computers, as the paper does; the motors alone are given "
     "beside it. The simulated robot walks faster than the paper's, so the fixed load of the computers weighs less and "
     "all costs are lower.",
+    "The fixed parameters are those of the first adaptive walk where it goes most carefully: the paper tunes its fixed "
+    "set to the adaptive one on the roughest part.",
     "Variances are of the true roll and pitch about each walk's own mean on the segment.",
 )
 
 
-def write_report(folder: Path, figures: StudyFigures, pictures: dict[str, Path]) -> list[Path]:
-    """Write report.md and report.html into `folder`. Raises InputError when that can not be done."""
-    sections = [
+def write_report(
+    folder: Path, figures: StudyFigures, pictures: dict[str, Path], constant: dict[str, float]
+) -> list[Path]:
+    """Write report.md and report.html into `folder`; `constant` are the parameters of the fixed walks.
+
+    Raises InputError when that can not be done.
+    """
+    sections: list[Section] = [
         ("Over the whole course", overall_table(figures)),
         ("By segment (the paper's Table III)", segment_table(figures)),
-        ("Gait parameters (Table II)", parameter_table(AdaptationConfig())),
+        ("Gait parameters (Table II)", parameter_table(AdaptationConfig(), constant)),
     ]
-    try:
-        markdown, page = folder / "report.md", folder / "report.html"
-        markdown.write_text(_markdown(sections, pictures))
-        page.write_text(_html(sections, pictures))
-    except OSError as error:
-        raise InputError(f"the report can not be written to {folder}: {error.strerror}") from error
-    return [markdown, page]
+    captioned = [(path, CAPTIONS[number]) for number, path in pictures.items()]
+    return write_pages(folder, "Testbed: adaptive against fixed gait parameters", sections, captioned, NOTES)
 
 
 def overall_table(figures: StudyFigures) -> Table:
-    """Rows of text, the first one the head."""
     adaptive, fixed = figures.kinds["adaptive"], figures.kinds["fixed"]
     return [
         ("", "adaptive", "fixed", "paper adaptive", "paper fixed"),
@@ -108,60 +105,18 @@ def segment_table(figures: StudyFigures) -> Table:
     return rows
 
 
-def parameter_table(config: AdaptationConfig) -> Table:
+def parameter_table(config: AdaptationConfig, constant: dict[str, float]) -> Table:
     """Ranges of the adaptive set and the fixed values; the paper's own are lost."""
-    names = {
-        "virtual_stiffness": ("virtual stiffness, N/m", config.virtual_stiffness.lower),
-        "stride_frequency": ("stride frequency, Hz", config.stride_frequency.lower),
-        "stride_height": ("stride height, m", config.stride_height.upper),
+    labels = {
+        "virtual_stiffness": "virtual stiffness, N/m",
+        "stride_frequency": "stride frequency, Hz",
+        "stride_height": "stride height, m",
     }
     rows: Table = [("", "adaptive, from", "to", "fixed")]
-    for name, (label, rough) in names.items():
+    for name, label in labels.items():
         bounds = getattr(config, name)
-        rows.append((label, f"{bounds.lower:g}", f"{bounds.upper:g}", f"{rough:g}"))
+        rows.append((label, f"{bounds.lower:g}", f"{bounds.upper:g}", f"{constant[name]:g}"))
     return rows
-
-
-def _markdown(sections: list[tuple[str, Table]], pictures: dict[str, Path]) -> str:
-    lines = ["# Testbed: adaptive against fixed gait parameters", ""]
-    for title, (head, *rows) in sections:
-        lines += [f"## {title}", "", _row(head), _row(("---",) * len(head)), *map(_row, rows), ""]
-    for number, path in pictures.items():
-        lines += [f"![{CAPTIONS[number]}]({path.name})", "", CAPTIONS[number], ""]
-    lines += ["## How to read this", "", *(f"- {note}" for note in NOTES), ""]
-    return "\n".join(lines)
-
-
-def _html(sections: list[tuple[str, Table]], pictures: dict[str, Path]) -> str:
-    body = ["<h1>Testbed: adaptive against fixed gait parameters</h1>"]
-    for title, (head, *rows) in sections:
-        body.append(f"<h2>{html.escape(title)}</h2><table><thead>{_cells(head, 'th')}</thead><tbody>")
-        body += [_cells(row, "td") for row in rows]
-        body.append("</tbody></table>")
-    for number, path in pictures.items():
-        picture = base64.b64encode(path.read_bytes()).decode()
-        caption = html.escape(CAPTIONS[number])
-        body.append(
-            f'<figure><img alt="{caption}" src="data:image/png;base64,{picture}">'
-            f"<figcaption>{caption}</figcaption></figure>"
-        )
-    body.append("<h2>How to read this</h2><ul>" + "".join(f"<li>{html.escape(note)}</li>" for note in NOTES) + "</ul>")
-    return (
-        '<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Testbed study</title><style>'
-        "body{font:15px/1.5 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem}"
-        "table{border-collapse:collapse;display:block;overflow-x:auto}"
-        "th,td{border:1px solid #bbb;padding:.25rem .6rem;text-align:right}"
-        "th:first-child,td:first-child{text-align:left}img{max-width:100%}figure{margin:1.5rem 0}"
-        "</style></head><body>" + "".join(body) + "</body></html>\n"
-    )
-
-
-def _row(cells: tuple[str, ...]) -> str:
-    return "| " + " | ".join(cells) + " |"
-
-
-def _cells(cells: tuple[str, ...], tag: str) -> str:
-    return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
 
 
 def _share(figures: KindFigures) -> str:

@@ -13,7 +13,7 @@ from sim_agent.testbed_study.plan import PlannedWalk
 from sim_agent.testbed_study.walk import COLUMNS, WalkRecord, outcome_of
 from weaver_shared.errors import InputError
 
-VERSION = 1
+VERSION = 2
 KEY = b"weaver.testbed_study"
 
 
@@ -45,7 +45,7 @@ class RecordStore:
         except (OSError, pa.ArrowInvalid):
             return None
         head = json.loads((table.schema.metadata or {}).get(KEY, b"{}"))
-        expected = {"version": VERSION, **plan.as_dict()}
+        expected = json.loads(json.dumps({"version": VERSION, **plan.as_dict()}))
         if any(head.get(name) != value for name, value in expected.items()) or set(COLUMNS) - set(table.column_names):
             return None
         rows = {name: np.asarray(table.column(name), dtype=np.float64) for name in COLUMNS}

@@ -75,7 +75,7 @@ def walk_testbed(plan: PlannedWalk) -> WalkRecord:
 
 
 def _mission(run: LockStep, plan: PlannedWalk, world: World, recorder: _Recorder) -> str:
-    begin_mission(run, _waypoints(plan, world), adaptive=plan.kind == "adaptive")
+    begin_mission(run, _waypoints(plan, world), constant=plan.parameters)
     for tick in range(round(plan.distance / SLOWEST * CONTROL_RATE)):
         moment = run.step()
         recorder.add(moment, tick)

@@ -1,5 +1,6 @@
 """The gait follows the ground: soft, slow and high where it is rough or unknown, and never in jumps."""
 
+import dataclasses
 import math
 from dataclasses import dataclass
 
@@ -106,12 +107,27 @@ def test_in_the_dark_the_feet_rule_and_count_with_their_doubt():
     assert 0.0 < report.desired.confidence <= 0.5
 
 
-def test_the_feet_are_not_asked_while_the_pictures_are_good():
+def test_the_feet_are_not_asked_where_the_ground_under_them_was_seen():
     report = settled(AdaptationController(), Ground(0.1, 0.1), felt=Ground(0.9, 0.9))
     assert report.source == "vision"
     assert values(report.desired) == pytest.approx(gait_for(0.1 + CONFIG.backlash, 0.1 + CONFIG.backlash, CONFIG))
-    unseen = settled(AdaptationController(), UNKNOWN, felt=Ground(0.0, 0.0))
-    assert unseen.source == "none"  # good pictures of other places: what lies ahead was neither seen nor felt
+
+
+def test_where_the_ground_under_the_robot_was_never_seen_feet_and_the_view_ahead_rule_together():
+    """The worse of what is felt and what is seen ahead (roughness and step height 0.1), each with its doubt."""
+    report = settled(AdaptationController(), UNKNOWN, felt=Ground(0.05, 0.3, 0.01, 0.02))
+    assert report.source == "feet"
+    assert (report.roughness, report.step_height) == pytest.approx((0.12, 0.32))
+    assert 0.0 < report.desired.confidence <= 0.5
+
+
+def test_feet_alone_do_not_answer_for_ground_ahead_that_good_pictures_do_not_show():
+    blank = dataclasses.replace(seen(), roughness=math.nan, step_height=math.nan)
+    controller = AdaptationController()
+    for k in range(100):
+        report = controller.step(UNKNOWN, blank, k * SECOND // 10, 0.1, Ground(0.0, 0.0))
+    assert report.source == "none"
+    assert values(report.desired) == pytest.approx(ROUGH)
 
 
 def test_ground_neither_seen_nor_felt_is_walked_on_safely():

@@ -40,6 +40,10 @@ def test_a_standing_foot_is_told_once_and_where_its_sole_is():
     assert points == pytest.approx(sole[None, :])
     for k in range(2, 9):
         assert len(feet.step(readings(8 * k, only(2, 8)), POSE)) == 0
+        assert feet.standing[2] == pytest.approx(sole)
+        assert np.isnan(np.delete(feet.standing, 2, axis=0)).all()
+    feet.step(readings(80, only(2, 8) & False), POSE)
+    assert np.isnan(feet.standing).all()
 
 
 def test_a_foot_put_down_again_is_told_again():

@@ -1,4 +1,4 @@
-"""Feet tell flat from rough ground on any slope, and say nothing from a few footholds or long ago."""
+"""Feet tell flat from rough ground on any slope, standing or walking, and say nothing from a few or long ago."""
 
 import numpy as np
 import pytest
@@ -17,8 +17,21 @@ def footholds(n, deviation, seed=0, slope=(0.0, 0.0), middle=(0.0, 0.0)):
     return np.column_stack([x + middle[0], y + middle[1], z])
 
 
+IN_THE_AIR = np.full((6, 3), np.nan)
+
+
+def walk(ground, points, place=(0.0, 0.0), stamp_ns=0):
+    """Stand on `points` by sixes, every time with the next feet, the last ones staying down."""
+    for k in range(0, len(points), 6):
+        standing = IN_THE_AIR.copy()
+        standing[: len(points[k : k + 6])] = points[k : k + 6]
+        ground.step(IN_THE_AIR, np.array(place), stamp_ns)
+        result = ground.step(standing, np.array(place), stamp_ns)
+    return result
+
+
 def felt(points, place=(0.0, 0.0), stamp_ns=0):
-    return FeltGround(CONFIG, FEATURES).step(points, np.array(place), stamp_ns)
+    return walk(FeltGround(CONFIG, FEATURES), points, place, stamp_ns)
 
 
 def roughness_of_normal_ground(deviation):
@@ -56,10 +69,24 @@ def test_too_few_footholds_or_all_in_a_line_say_nothing():
 
 def test_footholds_far_off_and_long_ago_are_forgotten():
     ground = FeltGround(CONFIG, FEATURES)
-    rough = ground.step(footholds(12, 0.03), np.zeros(2), 0)
-    assert rough.roughness > 0.5
+    assert walk(ground, footholds(12, 0.03)).roughness > 0.5
     away = np.array([1.5, 0.0])
-    assert np.isnan(ground.step(footholds(3, 0.0, middle=away), away, SECOND).roughness)
-    assert ground.step(footholds(9, 0.0, seed=2, middle=away), away, 2 * SECOND).roughness < 0.05
-    later = int((CONFIG.memory + 3.0) * SECOND)
-    assert np.isnan(ground.step(np.zeros((0, 3)), away, later).roughness)
+    assert np.isnan(walk(ground, footholds(3, 0.0, middle=away), away, SECOND).roughness)
+    assert walk(ground, footholds(9, 0.0, seed=2, middle=away), away, 2 * SECOND).roughness < 0.05
+    ground.step(IN_THE_AIR, away, 3 * SECOND)
+    later = int((CONFIG.memory + 4.0) * SECOND)
+    assert np.isnan(ground.step(IN_THE_AIR, away, later).roughness)
+
+
+def test_feet_that_go_on_standing_are_not_forgotten():
+    ground, standing = FeltGround(CONFIG, FEATURES), footholds(6, 0.0)
+    for second in range(int(3 * CONFIG.memory)):
+        level = ground.step(standing, np.zeros(2), second * SECOND)
+    assert level.roughness < 0.05 < 2.0 * level.roughness_sigma + 0.05
+    assert len(ground._points) == 0
+
+
+def test_a_foot_that_stands_counts_once_however_long():
+    ground, standing = FeltGround(CONFIG, FEATURES), footholds(6, 0.02)
+    once = ground.step(standing, np.zeros(2), 0)
+    assert ground.step(standing, np.zeros(2), SECOND) == once

@@ -83,9 +83,9 @@ class HealthConfig(_Settings):
 class FeltConfig(_Settings):
     """The ground as the feet feel it."""
 
-    memory: Positive = 15.0  # s that a foothold counts
+    memory: Positive = 15.0  # s that a foothold counts once its foot has left it
     radius: Positive = 0.8  # m about the body within which it counts: the feet and a stride
-    fewest: Annotated[int, Field(ge=5)] = 8  # footholds
+    fewest: Annotated[int, Field(ge=5)] = 6  # footholds: a hexapod that stands
     noise: Positive = 0.002  # m of a foothold's height, measured on level ground
 
 

@@ -1,0 +1,75 @@
+"""Which trials make up the study: gait parameters on a grid, on every ground, with every seed."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from sim_agent.fit_study.grounds import GROUNDS, QUICK, Ground
+from weaver_shared.config.adaptation import AdaptationConfig, Bounds
+from weaver_shared.errors import InputError
+
+LEVELS = {"full": (3, 4, 3), "quick": (2, 3, 2)}
+"""How many values of virtual stiffness, stride frequency and stride height are tried."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trial:
+    """One walk over one ground with constant gait parameters."""
+
+    robot: str
+    ground: str
+    seed: int
+    virtual_stiffness: float  # N/m
+    stride_frequency: float  # Hz
+    stride_height: float  # m
+
+    @property
+    def name(self) -> str:
+        c, f, h = self.virtual_stiffness, self.stride_frequency, self.stride_height
+        return f"{self.robot}-{self.ground}-{self.seed}-{c:g}-{f:g}-{h:g}"
+
+    @property
+    def parameters(self) -> tuple[float, float, float]:
+        return self.virtual_stiffness, self.stride_frequency, self.stride_height
+
+    def as_dict(self) -> dict[str, Any]:
+        return asdict(self)
+
+
+def trials(
+    robot: str, adaptation: AdaptationConfig, grounds: list[Ground], seeds: range, *, quick: bool
+) -> list[Trial]:
+    """The grid between the adaptation's bounds; stiffness in equal ratios, the others in equal steps."""
+    stiff, frequent, high = LEVELS["quick" if quick else "full"]
+    grid = list(
+        product(
+            _values(adaptation.virtual_stiffness, stiff, ratio=True),
+            _values(adaptation.stride_frequency, frequent),
+            _values(adaptation.stride_height, high),
+        )
+    )
+    return [
+        Trial(robot=robot, ground=ground.name, seed=seed, virtual_stiffness=c, stride_frequency=f, stride_height=h)
+        for ground in grounds
+        for seed in seeds
+        for c, f, h in grid
+    ]
+
+
+def grounds_named(names: str, *, quick: bool) -> list[Ground]:
+    """Grounds by comma-separated names; all, or the quick form's, where none are named. Raises InputError."""
+    known = {ground.name: ground for ground in GROUNDS}
+    wanted = [name.strip() for name in names.split(",") if name.strip()] or (QUICK if quick else list(known))
+    unknown = [name for name in wanted if name not in known]
+    if unknown:
+        raise InputError(f"ground {', '.join(unknown)} is unknown; known are {', '.join(known)}")
+    return [known[name] for name in wanted]
+
+
+def _values(bounds: Bounds, count: int, *, ratio: bool = False) -> list[float]:
+    space = np.geomspace if ratio else np.linspace
+    return [float(f"{value:.3g}") for value in space(bounds.lower, bounds.upper, count)]
