@@ -23,8 +23,6 @@ Array = NDArray[np.float64]
 CAUTION = 0.7
 """Of the frequency for level ground."""
 BEYOND = 0.4  # m behind the last rise, where the course ends
-HIGHEST_OF_LEG = 0.35
-"""Stride height over the reach under the hip; higher the legs could not fold."""
 ABOVE = 0.03  # m that feet swing above the highest step
 SLOWEST = 0.35
 """Share of the asked speed below which the robot is stuck."""
@@ -62,7 +60,7 @@ def climbing_order(rig: Rig, speed: float) -> Array:
 
 def _high_and_slow(robot: RobotDescription, gait: str, step: float) -> GaitParameters:
     usual = parameters_for(robot, gait)
-    highest = min(HIGHEST_OF_LEG * robot.clearance, robot.locomotion.height_bounds[1])
+    highest = min(robot.adaptation.stride_height.upper, robot.locomotion.height_bounds[1])
     height = max(usual.stride_height, min(step + ABOVE, highest))
     return replace(usual, stride_frequency=CAUTION * usual.stride_frequency, stride_height=height)
 
