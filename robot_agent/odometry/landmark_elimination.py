@@ -1,7 +1,7 @@
 """Landmarks tie the frames that see them; each is eliminated at once, by a Schur complement of rank three.
 
-Poses are gathered in a small dense system of their own, six unknowns a frame and the time offset last, which stays in
-the processor's cache; only its sum enters the window's.
+Poses are gathered in a small dense system of their own, six unknowns a frame, which stays in the processor's cache;
+only its sum enters the window's, and with it the unknowns all frames have in common.
 """
 
 from __future__ import annotations
@@ -13,16 +13,21 @@ from numpy.typing import NDArray
 
 from robot_agent.odometry.compiled import compiled, compiled_for_speed
 from robot_agent.odometry.landmarks import Eyes, Landmarks
-from robot_agent.odometry.reprojection_factor import BEHIND, exposure_views, observation_rows, whitened_error
-from robot_agent.odometry.window_state import STATE, Frames
+from robot_agent.odometry.reprojection_factor import (
+    BEHIND,
+    POSE,
+    common_as_poses,
+    exposure_views,
+    mounted,
+    observation_rows,
+    whitened_error,
+)
+from robot_agent.odometry.window_state import COMMON, STATE, Frames
 
 Array = NDArray[np.float64]
 
-POSE = 6
-"""Unknowns of a frame that a picture sees: rotation and position."""
-
-POINT, OFFSET, ERROR, WIDTH = 6, 9, 10, 11
-"""Columns of an observation's row: pose first, then point, time offset and error."""
+POINT, ERROR, WIDTH = 6, 9, 10
+"""Columns of an observation's row: pose first, then point and error."""
 
 ROUNDING = 1e-9
 """Share of a landmark's information added to its diagonal, so that a point seen along one ray can be eliminated."""
@@ -33,7 +38,8 @@ class Elimination(NamedTuple):
 
     inverse: Array  # (rows, 3, 3) of the landmark's own block, zero where it has none
     gradient: Array  # (rows, 3)
-    coupling: Array  # (rows, 3, POSE * slots + 1) landmark to poses and time offset
+    coupling: Array  # (rows, 3, POSE * slots) landmark to poses
+    common: Array  # (POSE * slots, COMMON) poses' change by the common unknowns
     first: NDArray[np.int64]  # (rows,) first frame coupled
     end: NDArray[np.int64]  # (rows,) one beyond the last; 0 where the landmark ties nothing
 
@@ -42,7 +48,8 @@ class Elimination(NamedTuple):
         return Elimination(
             inverse=np.zeros((rows, 3, 3)),
             gradient=np.zeros((rows, 3)),
-            coupling=np.zeros((rows, 3, POSE * slots + 1)),
+            coupling=np.zeros((rows, 3, POSE * slots)),
+            common=np.zeros((POSE * slots, COMMON)),
             first=np.zeros(rows, dtype=np.int64),
             end=np.zeros(rows, dtype=np.int64),
         )
@@ -67,10 +74,13 @@ def add_reprojections(
 
     Beyond `huber` sigmas an observation counts less; all of them count `trust` times as much as their sigmas say.
     """
-    poses = np.zeros((POSE * count + 1, POSE * count + 1))
-    pull = np.zeros(POSE * count + 1)
+    poses = np.zeros((POSE * count, POSE * count))
+    pull = np.zeros(POSE * count)
+    rotation, _, _ = exposure_views(origin, eyes, count)
+    common = common_as_poses(origin, rotation, count)
+    elimination.common[: POSE * count] = common
     cost = _gather(frames, origin, landmarks, chosen, eyes, count, per_sigma, huber, trust, elimination, poses, pull)
-    _scatter(poses, pull, count, hessian, gradient)
+    _scatter(poses, pull, common, count, hessian, gradient)
     return cost
 
 
@@ -92,10 +102,10 @@ def _gather(
     """Upper triangle and gradient of the poses' own system, all landmarks eliminated; returns the cost."""
     _, _, views = exposure_views(frames, eyes, count)
     rotation, position, linear = exposure_views(origin, eyes, count)
-    t = POSE * count
+    seats = mounted(origin, eyes)
     rows = np.empty((4, WIDTH))
     own, own_pull = np.empty((3, 3)), np.empty(3)
-    halves = np.empty((3, t + 1))
+    halves = np.empty((3, POSE * count))
     cost, root = 0.0, np.sqrt(trust)
     for row in range(landmarks.identity.shape[0]):
         elimination.end[row] = 0
@@ -106,7 +116,6 @@ def _gather(
             continue
         coupling = elimination.coupling[row]
         coupling[:, POSE * first : POSE * end] = 0.0
-        coupling[:, t] = 0.0
         own[:] = 0.0
         own_pull[:] = 0.0
         for k in range(first, end):
@@ -119,17 +128,17 @@ def _gather(
                 x, y = whitened_error(views, landmarks, row, k, e, per_sigma)
                 if x >= BEHIND:  # has a weight of next to nothing, but a slope that throws the solution away
                     continue
-                observation_rows(rotation, position, eyes, linear, landmarks.point, row, k, e, rows)
+                observation_rows(rotation, position, seats, linear, landmarks.point, row, k, e, rows)
                 size = np.sqrt(x * x + y * y)
                 cost += 0.5 * size * size if size <= huber else huber * (size - 0.5 * huber)
                 weight = root if size <= huber else root * np.sqrt(huber / size)
-                _weigh(rows, e, weight, x, y, per_sigma, origin.rate, origin.velocity, k)
-            _accumulate(rows, POSE * k, t, coupling, own, own_pull, poses, pull)
+                _weigh(rows, e, weight, x, y, per_sigma)
+            _accumulate(rows, POSE * k, coupling, own, own_pull, poses, pull)
         if not _factorise(own, elimination.inverse, row):  # behind every eye that saw it: it says nothing
             continue
         elimination.first[row], elimination.end[row] = first, end
         elimination.gradient[row] = own_pull
-        _eliminate(coupling, own, own_pull, POSE * first, POSE * end, t, halves, poses, pull)
+        _eliminate(coupling, own, own_pull, POSE * first, POSE * end, halves, poses, pull)
     return cost * trust
 
 
@@ -146,15 +155,9 @@ def _frames_seeing(seen: NDArray[np.uint8], row: int, count: int) -> tuple[int, 
 
 
 @compiled_for_speed
-def _weigh(
-    rows: Array, e: int, weight: float, x: float, y: float, per_sigma: float, rate: Array, velocity: Array, k: int
-) -> None:
-    """Add the derivative to the time offset and the error (x, y) to one eye's rows, and weigh them."""
+def _weigh(rows: Array, e: int, weight: float, x: float, y: float, per_sigma: float) -> None:
+    """Add the error (x, y) to one eye's rows, and weigh them."""
     for n in range(2 * e, 2 * e + 2):
-        by_offset = 0.0
-        for a in range(3):
-            by_offset += rows[n, a] * rate[k, a] + rows[n, 3 + a] * velocity[k, a]
-        rows[n, OFFSET] = by_offset
         for a in range(ERROR):
             rows[n, a] *= weight * per_sigma
         rows[n, ERROR] = weight * (x if n == 2 * e else y)
@@ -162,14 +165,13 @@ def _weigh(
 
 @compiled_for_speed
 def _accumulate(
-    rows: Array, base: int, t: int, coupling: Array, own: Array, own_pull: Array, poses: Array, pull: Array
+    rows: Array, base: int, coupling: Array, own: Array, own_pull: Array, poses: Array, pull: Array
 ) -> None:
-    """Add one frame's normal equations: its pose at `base`, the time offset at `t`, the landmark's own block."""
+    """Add one frame's normal equations: its pose at `base`, and the landmark's own block."""
     for a in range(POSE):
         a0, a1, a2, a3 = rows[0, a], rows[1, a], rows[2, a], rows[3, a]
         for b in range(POSE):
             poses[base + a, base + b] += a0 * rows[0, b] + a1 * rows[1, b] + a2 * rows[2, b] + a3 * rows[3, b]
-        poses[base + a, t] += a0 * rows[0, OFFSET] + a1 * rows[1, OFFSET] + a2 * rows[2, OFFSET] + a3 * rows[3, OFFSET]
         pull[base + a] += a0 * rows[0, ERROR] + a1 * rows[1, ERROR] + a2 * rows[2, ERROR] + a3 * rows[3, ERROR]
     for c in range(3):
         a0, a1, a2, a3 = rows[0, POINT + c], rows[1, POINT + c], rows[2, POINT + c], rows[3, POINT + c]
@@ -178,11 +180,7 @@ def _accumulate(
         for b in range(3):
             n = POINT + b
             own[c, b] += a0 * rows[0, n] + a1 * rows[1, n] + a2 * rows[2, n] + a3 * rows[3, n]
-        coupling[c, t] += a0 * rows[0, OFFSET] + a1 * rows[1, OFFSET] + a2 * rows[2, OFFSET] + a3 * rows[3, OFFSET]
         own_pull[c] += a0 * rows[0, ERROR] + a1 * rows[1, ERROR] + a2 * rows[2, ERROR] + a3 * rows[3, ERROR]
-    for n in range(4):
-        poses[t, t] += rows[n, OFFSET] * rows[n, OFFSET]
-        pull[t] += rows[n, OFFSET] * rows[n, ERROR]
 
 
 @compiled_for_speed
@@ -220,21 +218,17 @@ def _eliminate(
     own_pull: Array,
     begin: int,
     end: int,
-    t: int,
     halves: Array,
     poses: Array,
     pull: Array,
 ) -> None:
-    """Take C^T (L L^T)^-1 C off the columns begin..end and t of the poses' system."""
+    """Take C^T (L L^T)^-1 C off the columns begin..end of the poses' system."""
     d0, d1, d2 = factor[0, 0], factor[1, 1], factor[2, 2]
     l10, l20, l21 = factor[1, 0], factor[2, 0], factor[2, 1]
     for a in range(begin, end):
         halves[0, a] = coupling[0, a] * d0
         halves[1, a] = (coupling[1, a] - l10 * halves[0, a]) * d1
         halves[2, a] = (coupling[2, a] - l20 * halves[0, a] - l21 * halves[1, a]) * d2
-    t0 = coupling[0, t] * d0
-    t1 = (coupling[1, t] - l10 * t0) * d1
-    t2 = (coupling[2, t] - l20 * t0 - l21 * t1) * d2
     p0 = own_pull[0] * d0
     p1 = (own_pull[1] - l10 * p0) * d1
     p2 = (own_pull[2] - l20 * p0 - l21 * p1) * d2
@@ -244,16 +238,18 @@ def _eliminate(
             continue
         for b in range(a, end):
             poses[a, b] -= a0 * halves[0, b] + a1 * halves[1, b] + a2 * halves[2, b]
-        poses[a, t] -= a0 * t0 + a1 * t1 + a2 * t2
         pull[a] -= a0 * p0 + a1 * p1 + a2 * p2
-    poses[t, t] -= t0 * t0 + t1 * t1 + t2 * t2
-    pull[t] -= t0 * p0 + t1 * p1 + t2 * p2
 
 
 @compiled
-def _scatter(poses: Array, pull: Array, count: int, hessian: Array, gradient: Array) -> None:
+def _scatter(poses: Array, pull: Array, common: Array, count: int, hessian: Array, gradient: Array) -> None:
     """Add the poses' system to the window's; only the upper triangle is kept up."""
-    t, last = POSE * count, STATE * count
+    for a in range(1, POSE * count):
+        for b in range(a):
+            poses[a, b] = poses[b, a]
+    by_common = poses @ common
+    both = np.ascontiguousarray(common.T) @ by_common
+    last = STATE * count
     for i in range(count):
         for a in range(POSE):
             row, source = STATE * i + a, POSE * i + a
@@ -262,25 +258,33 @@ def _scatter(poses: Array, pull: Array, count: int, hessian: Array, gradient: Ar
             for k in range(i + 1, count):
                 for b in range(POSE):
                     hessian[row, STATE * k + b] += poses[source, POSE * k + b]
-            hessian[row, last] += poses[source, t]
+            for b in range(COMMON):
+                hessian[row, last + b] += by_common[source, b]
+                gradient[last + b] += common[source, b] * pull[source]
             gradient[row] += pull[source]
-    hessian[last, last] += poses[t, t]
-    gradient[last] += pull[t]
+    for a in range(COMMON):
+        for b in range(a, COMMON):
+            hessian[last + a, last + b] += both[a, b]
 
 
 @compiled_for_speed
 def move_points(landmarks: Landmarks, elimination: Elimination, count: int, step: Array) -> None:
     """Each eliminated landmark's own step, given that of the frames (unknowns,)."""
-    t = POSE * count
+    pose_step = np.empty(POSE * count)
+    for k in range(count):
+        for a in range(POSE):
+            row = POSE * k + a
+            pose_step[row] = step[STATE * k + a]
+            for b in range(COMMON):
+                pose_step[row] += elimination.common[row, b] * step[STATE * count + b]
     pull = np.empty(3)
     for row in range(landmarks.identity.shape[0]):
         if elimination.end[row] == 0:
             continue
         for c in range(3):
-            total = elimination.gradient[row, c] + elimination.coupling[row, c, t] * step[STATE * count]
-            for k in range(elimination.first[row], elimination.end[row]):
-                for a in range(POSE):
-                    total += elimination.coupling[row, c, POSE * k + a] * step[STATE * k + a]
+            total = elimination.gradient[row, c]
+            for n in range(POSE * elimination.first[row], POSE * elimination.end[row]):
+                total += elimination.coupling[row, c, n] * pose_step[n]
             pull[c] = total
         for a in range(3):
             for b in range(3):

@@ -9,9 +9,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.odometry.window_state import STATE, Frames, copy_slot, difference, unknowns
+from robot_agent.odometry.window_state import COMMON, STATE, Frames, copy_common, copy_slot, difference, unknowns
 
 Array = NDArray[np.float64]
+
+FIXED_SIGMA = 1e-9
+"""s, rad, m: of what is not to be estimated."""
 
 
 class Prior:
@@ -24,16 +27,19 @@ class Prior:
         self.gradient = np.zeros(unknowns(0))
         self.count = 0
 
-    def begin(self, frames: Frames, information: Array, time_offset_sigma: float) -> None:
-        """Start with one frame of which `information` (15, 15) is known; a time offset of sigma 0 never moves."""
+    def begin(self, frames: Frames, information: Array, common_sigmas: Array) -> None:
+        """Start with one frame of which `information` (15, 15) is known, and the common unknowns' sigmas (COMMON,).
+
+        What has a sigma of 0 never moves.
+        """
         self.count = 1
         self.fixed[:] = False
         self.fixed[0] = True
         copy_slot(frames, self.origin, 0)
-        self.origin.time_offset[0] = frames.time_offset[0]
+        copy_common(frames, self.origin)
         self.hessian = np.zeros((unknowns(1), unknowns(1)))
         self.hessian[:STATE, :STATE] = information
-        self.hessian[STATE, STATE] = 1.0 / max(time_offset_sigma, 1e-9) ** 2
+        self.hessian[STATE:, STATE:] = np.diag(1.0 / np.maximum(common_sigmas, FIXED_SIGMA) ** 2)
         self.gradient = np.zeros(unknowns(1))
 
     def append_frame(self) -> None:
@@ -59,7 +65,7 @@ class Prior:
     def replace(self, frames: Frames, hessian: Array, gradient: Array) -> None:
         """Take a system at `frames` over as what is remembered; frames it ties are held from now on."""
         self.linearise_at(frames)
-        blocks = np.abs(hessian[:-1]).sum(axis=1).reshape(self.count, STATE).sum(axis=1)
+        blocks = np.abs(hessian[:-COMMON]).sum(axis=1).reshape(self.count, STATE).sum(axis=1)
         self.fixed[: self.count] = blocks > 0.0
         self.hessian = hessian
         self.gradient = gradient - hessian @ difference(frames, self.origin, self.count)

@@ -1,7 +1,8 @@
 """Where a landmark is seen against where it should be: reprojection errors of both eyes and their derivatives.
 
 A picture is taken at its stamp plus the time offset, so each frame's pose is moved along its velocity and turn rate by
-the offset before projecting; the offset thereby is an unknown like any other.
+the offset before projecting, and its eyes sit on the IMU as the rig's correction says. What a change of these common
+unknowns does to a sighting is what a change of its frame's pose would do: `common_as_poses` says of which.
 """
 
 from __future__ import annotations
@@ -12,9 +13,20 @@ from numpy.typing import NDArray
 from robot_agent.odometry.compiled import compiled, compiled_for_speed
 from robot_agent.odometry.landmarks import Eyes, Landmarks, Views, views_of
 from robot_agent.odometry.rotations import exponential
-from robot_agent.odometry.window_state import Frames
+from robot_agent.odometry.window_state import (
+    COMMON,
+    POSITION,
+    RIG_ROTATION,
+    RIG_SHIFT,
+    ROTATION,
+    TIME_OFFSET,
+    Frames,
+)
 
 Array = NDArray[np.float64]
+
+POSE = 6
+"""Unknowns of a frame that a picture sees: rotation and position."""
 
 BEHIND = 1e6
 """sigmas: the error of a point that is not in front of the eye."""
@@ -29,7 +41,37 @@ def exposure_views(frames: Frames, eyes: Eyes, count: int) -> tuple[Array, Array
     for k in range(count):
         rotation[k] = frames.rotation[k] @ exponential(frames.rate[k] * dt)
         position[k] = frames.position[k] + frames.velocity[k] * dt
-    return rotation, position, views_of(rotation, position, eyes, count)
+    return rotation, position, views_of(rotation, position, mounted(frames, eyes), count)
+
+
+@compiled
+def mounted(frames: Frames, eyes: Eyes) -> Eyes:
+    """The eyes where they sit on the IMU by the estimate, from where they are by their calibration."""
+    corrected = Eyes(np.empty((2, 3, 3)), np.empty((2, 3)))
+    rig_from_imu = np.ascontiguousarray(frames.rig_rotation.T)
+    for e in range(2):
+        corrected.rotation[e] = eyes.rotation[e] @ rig_from_imu
+        corrected.translation[e] = eyes.translation[e] - eyes.rotation[e] @ frames.rig_shift
+    return corrected
+
+
+@compiled
+def common_as_poses(frames: Frames, rotation: Array, count: int) -> Array:
+    """The change of the exposures' poses (POSE * count, COMMON) by each common unknown, as the eyes see it.
+
+    `rotation` is that of the exposures.
+    """
+    change = np.zeros((POSE * count, COMMON))
+    for k in range(count):
+        base = POSE * k
+        world_from_rig = rotation[k] @ frames.rig_rotation
+        for a in range(3):
+            change[base + ROTATION + a, TIME_OFFSET] = frames.rate[k, a]
+            change[base + POSITION + a, TIME_OFFSET] = frames.velocity[k, a]
+            change[base + ROTATION + a, RIG_ROTATION + a] = 1.0
+            for b in range(3):
+                change[base + POSITION + a, RIG_SHIFT + b] = world_from_rig[a, b]
+    return change
 
 
 @compiled_for_speed

@@ -1,4 +1,5 @@
-"""Keyframe sliding window: Gauss-Newton over the last frames' poses, velocities, biases and the time offset.
+"""Keyframe sliding window: Gauss-Newton over the last frames' poses, velocities and biases, and the rig's place in time
+and space.
 
 Keyframe choice and bounded estimation follow OKVIS (Leutenegger et al., IJRR 2015); measured settings: 8 keyframes,
 3 newest frames, 2 iterations.
@@ -20,10 +21,11 @@ from robot_agent.odometry.reprojection_factor import exposure_views, reject
 from robot_agent.odometry.rest_factor import add_rest
 from robot_agent.odometry.tracks import Tracks
 from robot_agent.odometry.way_factor import Ways, add_ways
-from robot_agent.odometry.window_state import GYRO_BIAS, STATE, Frames, advance, unknowns
+from robot_agent.odometry.window_state import COMMON_FIELDS, GYRO_BIAS, STATE, Frames, advance, unknowns
 from weaver_shared.config.odometry import OdometryConfig
 from weaver_shared.frames import GRAVITY
 from weaver_shared.robots.description import Imu
+from weaver_shared.transforms import Pose
 
 Array = NDArray[np.float64]
 
@@ -91,7 +93,7 @@ class SlidingWindow:
         rate: Array,
         information: Array,
     ) -> None:
-        """Start over with one frame, of which `information` (15, 15) is known; the time offset is kept."""
+        """Start over with one frame, of which `information` (15, 15) is known; what all frames share is kept."""
         self.landmarks.forget(np.ones(ROWS, dtype=np.bool_))
         for array, value in zip(
             self.frames[:6], (rotation, position, velocity, gyro_bias, accel_bias, rate), strict=True
@@ -106,7 +108,7 @@ class SlidingWindow:
         self.stamps = [stamp_ns]
         self.count = 1
         self._factor = None
-        self._prior.begin(self.frames, information, self._config.time_offset_sigma)
+        self._prior.begin(self.frames, information, self._common_sigmas())
 
     def see(self, tracks: Tracks) -> None:
         """Enter the newest frame's tracks."""
@@ -127,7 +129,7 @@ class SlidingWindow:
         """Append a frame, predicted by the inertial `samples` (n, 7) since the newest; `way` is that of the feet."""
         self._make_room()
         k, frames = self.count, self.frames
-        for array in frames[:-1]:
+        for array in frames[:-COMMON_FIELDS]:
             array[k] = array[k - 1]
         frames.rate[k] = rate
         self._resting[k] = resting
@@ -165,6 +167,11 @@ class SlidingWindow:
             self._residual += RESIDUAL_MEMORY * (left - self._residual)
         self._forget_hopeless()
         return True, landmarks.identity[dead & (landmarks.identity >= 0)].copy()
+
+    def mounting(self) -> Pose:
+        """Imu_from_rig: how the rig of both eyes sits on the IMU, the identity being as it was calibrated."""
+        turn = self.frames.rig_rotation
+        return Pose(rotation=turn.copy(), position=turn @ self.frames.rig_shift)
 
     def pose_covariance(self) -> Array:
         """(6, 6) of the newest IMU pose: rotation error (in imu, rad), position error (in world, m)."""
@@ -212,6 +219,10 @@ class SlidingWindow:
             gradient,
         )
         return hessian, gradient
+
+    def _common_sigmas(self) -> Array:
+        config = self._config
+        return np.array([config.time_offset_sigma, *[config.rig_turn_sigma] * 3, *[config.rig_shift_sigma] * 3])
 
     def _trust(self) -> float:
         """How much more, or less, than by their sigma the observations count: by how well they have agreed of late.

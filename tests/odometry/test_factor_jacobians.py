@@ -8,7 +8,13 @@ import pytest
 from robot_agent.odometry.inertial_factor import inertial_jacobian, inertial_residual
 from robot_agent.odometry.landmarks import Eyes, Landmarks
 from robot_agent.odometry.preintegration import Preintegrations, begin, integrate
-from robot_agent.odometry.reprojection_factor import exposure_views, observation_rows, whitened_error
+from robot_agent.odometry.reprojection_factor import (
+    common_as_poses,
+    exposure_views,
+    mounted,
+    observation_rows,
+    whitened_error,
+)
 from robot_agent.odometry.rest_factor import rest_jacobian, rest_residual
 from robot_agent.odometry.way_factor import Ways, way_jacobian, way_residual
 from robot_agent.odometry.window_state import STATE, Frames, advance, unknowns
@@ -70,8 +76,11 @@ def test_way_factor() -> None:
 def test_reprojection_factor(eyes: Eyes, eye: int) -> None:
     frames, landmarks = _two_frames(), Landmarks.of(1, 3)
     frames.time_offset[0] = 0.004
+    frames.rig_rotation[:] = rotation_from_rpy(0.02, -0.03, 0.01)
+    frames.rig_shift[:] = [0.003, -0.005, 0.004]
     rotation, position, views = exposure_views(frames, eyes, 2)
-    in_front = eyes.rotation[eye].T @ (np.array([0.1, -0.15, 0.8]) - eyes.translation[eye])
+    seats = mounted(frames, eyes)
+    in_front = seats.rotation[eye].T @ (np.array([0.1, -0.15, 0.8]) - seats.translation[eye])
     landmarks.point[0] = rotation[1] @ in_front + position[1]
     landmarks.observation[0, 1, eye] = [0.1, -0.2]
 
@@ -80,12 +89,12 @@ def test_reprojection_factor(eyes: Eyes, eye: int) -> None:
         return np.array(whitened_error(seen_from, landmarks, 0, 1, eye, 100.0))
 
     rows = np.zeros((4, 12))
-    observation_rows(rotation, position, eyes, views, landmarks.point, 0, 1, eye, rows)
+    observation_rows(rotation, position, seats, views, landmarks.point, 0, 1, eye, rows)
     by_pose, by_point = 100.0 * rows[2 * eye : 2 * eye + 2, :6], 100.0 * rows[2 * eye : 2 * eye + 2, 6:9]
     numeric = _numeric(frames, error)
     assert by_pose == pytest.approx(numeric[:, STATE : STATE + 6], rel=1e-2, abs=0.1)  # linearised without the offset
-    motion = np.concatenate([frames.rate[1], frames.velocity[1]])
-    assert by_pose @ motion == pytest.approx(numeric[:, -1], rel=1e-2, abs=0.1)  # linearised without the offset
+    by_common = by_pose @ common_as_poses(frames, rotation, 2)[6:12]
+    assert by_common == pytest.approx(numeric[:, 2 * STATE :], rel=1e-2, abs=0.1)  # linearised without the offset
     for axis in range(3):
         base = np.array(whitened_error(views, landmarks, 0, 1, eye, 100.0))
         landmarks.point[0, axis] += STEP

@@ -5,8 +5,8 @@ import pytest
 
 from robot_agent.odometry.landmark_elimination import Elimination, add_reprojections, move_points
 from robot_agent.odometry.landmarks import Eyes, Landmarks
-from robot_agent.odometry.reprojection_factor import exposure_views, observation_rows, whitened_error
-from robot_agent.odometry.window_state import STATE, Frames, unknowns
+from robot_agent.odometry.reprojection_factor import common_as_poses, exposure_views, observation_rows, whitened_error
+from robot_agent.odometry.window_state import COMMON, STATE, Frames, unknowns
 from weaver_shared.transforms import rotation_from_rpy
 
 FRAMES, POINTS, PER_SIGMA, HUBER, TRUST = 3, 7, 400.0, 1.0, 0.7
@@ -38,6 +38,7 @@ def _whole_system(frames: Frames, landmarks: Landmarks, eyes: Eyes) -> tuple[np.
     size = unknowns(FRAMES)
     hessian, gradient = np.zeros((size + 3 * POINTS,) * 2), np.zeros(size + 3 * POINTS)
     rotation, position, views = exposure_views(frames, eyes, FRAMES)
+    common = common_as_poses(frames, rotation, FRAMES)
     cost = 0.0
     for row in range(POINTS):
         for k in range(FRAMES):
@@ -49,7 +50,7 @@ def _whole_system(frames: Frames, landmarks: Landmarks, eyes: Eyes) -> tuple[np.
                 part = PER_SIGMA * rows[2 * e : 2 * e + 2]
                 jacobian = np.zeros((2, len(gradient)))
                 jacobian[:, STATE * k : STATE * k + 6] = part[:, :6]
-                jacobian[:, size - 1] = part[:, :6] @ np.concatenate([frames.rate[k], frames.velocity[k]])
+                jacobian[:, size - COMMON : size] = part[:, :6] @ common[6 * k : 6 * k + 6]
                 jacobian[:, size + 3 * row : size + 3 * row + 3] = part[:, 6:9]
                 error = np.array(whitened_error(views, landmarks, row, k, e, PER_SIGMA))
                 length = float(np.linalg.norm(error))

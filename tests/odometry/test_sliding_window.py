@@ -9,7 +9,7 @@ from robot_agent.odometry.prior import Prior, eliminate
 from robot_agent.odometry.start import begin_at_rest
 from robot_agent.odometry.tracks import Tracks
 from robot_agent.odometry.window import SlidingWindow
-from robot_agent.odometry.window_state import STATE, Frames, unknowns
+from robot_agent.odometry.window_state import COMMON, STATE, Frames, unknowns
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.odometry import OdometryConfig, StartConfig
 from weaver_shared.frames import GRAVITY
@@ -113,7 +113,7 @@ def test_eliminating_a_frame_leaves_the_others_solution_alone() -> None:
 def test_a_prior_pulls_with_its_first_estimate_after_the_states_moved() -> None:
     frames = Frames.of(3)
     prior = Prior(3)
-    prior.begin(frames, 4.0 * np.eye(STATE), 0.003)
+    prior.begin(frames, 4.0 * np.eye(STATE), np.full(COMMON, 0.003))
     prior.append_frame()
     prior.linearise_at(frames)
     frames.position[0] += [0.1, 0.0, -0.2]

@@ -45,6 +45,8 @@ class WindowConfig(_Model):
     gate: Positive = 4.5  # sigma, beyond it an observation is wrong
     parallax: Positive = 0.02  # rad between two rays before they make a point
     time_offset_sigma: Annotated[float, Field(ge=0.0)] = 0.001  # s, 0 fixes the calibrated offset
+    rig_turn_sigma: Annotated[float, Field(ge=0.0)] = 0.001  # rad, of the eyes on the IMU; 0 fixes the calibration
+    rig_shift_sigma: Annotated[float, Field(ge=0.0)] = 0.0005  # m, likewise
 
 
 class StartConfig(_Model):
