@@ -20,7 +20,7 @@ from robot_agent.locomotion.leg_reach import LegReach
 from robot_agent.mapping import FirmFeet, TerrainMap
 from robot_agent.modes import ModeMachine, Permission
 from robot_agent.navigation import FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
-from robot_agent.odometry import NavigationState, StatePropagator, StereoInertialOdometry
+from robot_agent.odometry import NavigationState, OwnLegs, StatePropagator, StereoInertialOdometry
 from robot_agent.orders import Orders
 from robot_agent.perception import FeltGround, Roughness, TerrainPerception
 from robot_agent.safety import SafetySupervisor, Verdict
@@ -92,7 +92,7 @@ class VisionPipeline:
     def step(self, frame: StereoFrame, imu: ImuBatch, legs: LegBatch) -> VisionTick:
         """One stereo pair with all IMU samples and readings of the legs since the previous one."""
         contacts = FootContacts.of(self._robot, legs)
-        odometry = self._odometry.step(frame, imu, contacts)
+        odometry = self._odometry.step(frame, imu, contacts, OwnLegs.of(self._robot, legs))
         self._frames += 1
         self._map.remember(odometry)
         self._feel(contacts, odometry)

@@ -32,7 +32,7 @@ from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.odometry import FailureConfig, FeetConfig, OdometryConfig, StartConfig, WindowConfig
 from weaver_shared.errors import InputError
 from weaver_shared.messages import OdometryEstimate, OdometryQuality
-from weaver_shared.transforms import Pose
+from weaver_shared.transforms import Pose, rotation_log
 
 
 def main(arguments: list[str]) -> int:
@@ -57,6 +57,8 @@ def main(arguments: list[str]) -> int:
         "gyro_bias_sigma": odometry.bias_sigmas[:3].tolist(),
         "accel_bias_sigma": odometry.bias_sigmas[3:].tolist(),
         "time_offset_s": odometry.time_offset,
+        "mounting_turn_deg": np.degrees(rotation_log(odometry.mounting.rotation)).tolist(),
+        "mounting_shift_m": odometry.mounting.position.tolist(),
     }
     if options.json:
         print(json.dumps(report))

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.odometry.compiled import compiled
+from robot_agent.odometry.own_legs import COARSE
 from weaver_shared.config.odometry import FrontEndConfig
 
 Array = NDArray[np.float64]
@@ -22,6 +23,8 @@ CIRCLE = np.array(
     ]
 )
 """(2, 16) px right and down, in order around the middle."""
+
+NOTHING_HIDDEN = np.zeros((0, 0), dtype=np.uint8)
 
 ARC = 9
 """Neighbours in a row that make a corner."""
@@ -36,8 +39,8 @@ class CornerGrid:
         self._rows = np.linspace(config.border, height - config.border, config.rows + 1).astype(np.int64)
         self._share = -(-config.features // (config.columns * config.rows))
 
-    def refill(self, picture: Picture, taken: Array) -> Array:
-        """Corners (m, 2) in pixels to add to those `taken` (n, 2)."""
+    def refill(self, picture: Picture, taken: Array, cover: Picture | None = None) -> Array:
+        """Corners (m, 2) in pixels to add to those `taken` (n, 2), none on what `cover` (of `own_legs`) hides."""
         config = self._config
         missing = config.features - len(taken)
         if missing <= 0:
@@ -53,6 +56,7 @@ class CornerGrid:
             self._rows,
             np.argsort(filled, kind="stable"),
             self._share - filled,
+            NOTHING_HIDDEN if cover is None else cover,
             features,
             len(taken),
             config.fast_threshold,
@@ -68,6 +72,7 @@ def _fill_cells(
     rows: NDArray[np.int64],
     order: NDArray[np.int64],
     wanted: NDArray[np.int64],
+    cover: Picture,
     features: Array,
     count: int,
     threshold: int,
@@ -85,6 +90,8 @@ def _fill_cells(
         top, left = rows[flat // across], columns[flat % across]
         height, width = rows[flat // across + 1] - top, columns[flat % across + 1] - left
         score_cell(picture, top, left, height, width, threshold, ring, score)
+        if cover.size:
+            _clear_covered(score, top, left, height, width, cover)
         for n in range(count):
             _clear_about(score, height, width, features[n, 0] - left, features[n, 1] - top, spacing)
         for _ in range(min(wanted[flat], len(features) - count)):
@@ -143,6 +150,14 @@ def _arc_score(ring: NDArray[np.int64], threshold: int) -> int:
                 break
         best = max(best, least, -most)
     return best if best > threshold else 0
+
+
+@compiled
+def _clear_covered(score: NDArray[np.int64], top: int, left: int, height: int, width: int, cover: Picture) -> None:
+    for v in range(height):
+        for u in range(width):
+            if score[v, u] and cover[(top + v) // COARSE, (left + u) // COARSE]:
+                score[v, u] = 0
 
 
 @compiled

@@ -14,6 +14,7 @@ from robot_agent.odometry.front_end import FrontEnd
 from robot_agent.odometry.imu_stream import ImuStream, Inertia
 from robot_agent.odometry.landmarks import RIGHT, Eyes
 from robot_agent.odometry.leg_way import Way, guessed_way, joined, way_of
+from robot_agent.odometry.own_legs import OwnLegs
 from robot_agent.odometry.propagation import propagate
 from robot_agent.odometry.start import Beginning, begin_again, begin_at_rest, begin_in_motion, is_still, levelled
 from robot_agent.odometry.tracks import Tracks
@@ -40,7 +41,7 @@ STEEP = 0.9
 class TrackSource(Protocol):
     """Whoever follows features: our front end on pictures, or a recording's tracks."""
 
-    def step(self, frame: StereoFrame, left_from_previous: Pose) -> Tracks: ...
+    def step(self, frame: StereoFrame, left_from_previous: Pose, legs: OwnLegs | None = None) -> Tracks: ...
 
     def forget(self, identities: NDArray[np.int64]) -> None: ...
 
@@ -91,6 +92,7 @@ class StereoInertialOdometry:
         self._stepping = False  # and did so since the last picture
         self._footless = 0.0  # s that neither pictures nor feet have told anything
         self._waited = 0.0
+        self._legs: OwnLegs | None = None  # when the newest pair was taken
         self._way_waiting: Way | None = None  # of the body's origin over its feet, from the first picture to the start
         self._history: deque[Array] = deque()
         self._flows: deque[float] = deque(maxlen=100)  # px, motion seen in the last pictures
@@ -108,6 +110,11 @@ class StereoInertialOdometry:
         return float(self._window.frames.time_offset[0])
 
     @property
+    def mounting(self) -> Pose:
+        """Estimated correction to where the calibrated eyes sit: imu_from_rig, the identity if they sit there."""
+        return self._window.mounting()
+
+    @property
     def bias_sigmas(self) -> Array:
         """(6,) standard deviations of the gyro (rad/s) and accelerometer bias (m/s^2)."""
         return self._window.bias_sigmas() if self._started else np.full(6, np.inf)
@@ -123,10 +130,17 @@ class StereoInertialOdometry:
             for k, stamp_ns in enumerate(self._window.stamps)
         }
 
-    def step(self, frame: StereoFrame, imu: ImuBatch, contacts: FootContacts | None = None) -> OdometryEstimate:
+    def step(
+        self,
+        frame: StereoFrame,
+        imu: ImuBatch,
+        contacts: FootContacts | None = None,
+        legs: OwnLegs | None = None,
+    ) -> OdometryEstimate:
         """The body's pose at the frame's stamp, from the pair and all inertial samples since the previous one.
 
         `contacts`, where the robot feels its feet, say how far it went over them; without pictures they go on alone.
+        Nothing is followed where `legs`, as they were when the pair was taken, show in the pictures.
         """
         jump = self._jump_back(frame)
         if jump:
@@ -145,10 +159,11 @@ class StereoInertialOdometry:
             self._stream.take_until(end_ns)  # from here on time counts again
             self._stamp = frame.stamp_ns
         if jump and self._started:
-            self._begin_again(self._front_end.step(frame, Pose.identity()))
+            self._begin_again(self._front_end.step(frame, Pose.identity(), legs))
             return self._report(
                 OdometryQuality.DEGRADED, f"the clock jumped by {jump:+.1f} s; began again where it was", 0
             )
+        self._legs = legs
         self._walk_on(inertia, end_ns)
         self._rate = inertia.rate
         self._remember(inertia)
@@ -172,7 +187,7 @@ class StereoInertialOdometry:
     # ---- beginning -------------------------------------------------------------------------------------------------
 
     def _start(self, frame: StereoFrame, inertia: Inertia) -> OdometryEstimate:
-        tracks = self._front_end.step(frame, Pose.identity())
+        tracks = self._front_end.step(frame, Pose.identity(), self._legs)
         if self._flows and self._pending_way is not None:
             before, way = self._way_waiting, self._pending_way
             self._way_waiting = way if before is None else joined(before, way, self._config.feet)
@@ -234,10 +249,9 @@ class StereoInertialOdometry:
         self._pending.append(inertia.samples)
         self._pending_trusted &= inertia.trusted
         self._predict()
-        left_from_previous = (
-            self._left_from_imu @ self._world_from_imu.inverse() @ before @ self._left_from_imu.inverse()
-        )
-        tracks = self._front_end.step(frame, left_from_previous)
+        left_from_imu = self._left_from_imu @ self._window.mounting().inverse()
+        left_from_previous = left_from_imu @ self._world_from_imu.inverse() @ before @ left_from_imu.inverse()
+        tracks = self._front_end.step(frame, left_from_previous, self._legs)
         resting = self._is_resting(tracks, inertia)
         blind = tracks.number < self._config.failure.least_features
         if self._lost and (self._stepping or not blind):

@@ -16,6 +16,7 @@ from robot_agent.odometry.exposure import matched, picture_problem
 from robot_agent.odometry.ground_warp import carried, ground_warp, warped
 from robot_agent.odometry.landmarks import LEFT, RIGHT
 from robot_agent.odometry.outlier_rejection import consistent, unit_rays
+from robot_agent.odometry.own_legs import Cover, OwnLegs, hidden
 from robot_agent.odometry.tracks import Tracks
 from robot_agent.vision.camera import PinholeCamera, StereoCalibration
 from robot_agent.vision.distortion import normalise, project
@@ -53,21 +54,22 @@ class FrontEnd:
         self._ground: Array | None = None  # inverse depth over the picture, from the newest matched pair
         self._predictable = False  # the last picture's features were where they were expected
 
-    def step(self, frame: StereoFrame, left_from_previous: Pose) -> Tracks:
-        """Follow features into `frame` and find new ones."""
+    def step(self, frame: StereoFrame, left_from_previous: Pose, legs: OwnLegs | None = None) -> Tracks:
+        """Follow features into `frame` and find new ones, none of them on the robot's own legs."""
         left_problem = picture_problem(frame.left, self._left.width, self._left.height, self._config)
         if left_problem:
             self.forget_all()
             return Tracks.none(f"left picture {left_problem}")
         right_problem = picture_problem(frame.right, self._right.width, self._right.height, self._config)
-        flow = self._follow(frame.left, left_from_previous)
-        self._refill(frame.left)
+        left_cover, right_cover = (None if legs is None else legs.cover(eye) for eye in (self._left, self._right))
+        flow = self._follow(frame.left, left_from_previous, left_cover)
+        self._refill(frame.left, left_cover)
         plane = normalise(self._left, self._pixel)
         observation = np.zeros((len(plane), 2, 2))
         observation[:, 0] = plane
         seen = np.full(len(plane), LEFT, dtype=np.uint8)
         if not right_problem:
-            observation[:, 1], matches = self._match(frame.left, matched(frame.right, frame.left), plane)
+            observation[:, 1], matches = self._match(frame.left, matched(frame.right, frame.left), plane, right_cover)
             seen[matches] |= RIGHT
         self._previous = frame.left
         return Tracks(
@@ -92,7 +94,7 @@ class FrontEnd:
     def _keep(self, mask: Mask) -> None:
         self._identity, self._pixel, self._depth = self._identity[mask], self._pixel[mask], self._depth[mask]
 
-    def _follow(self, picture: Picture, left_from_previous: Pose) -> float:
+    def _follow(self, picture: Picture, left_from_previous: Pose, cover: Cover | None) -> float:
         """Move all tracks into the new picture; median motion in px."""
         if self._previous is None or len(self._pixel) == 0:
             return float("nan")
@@ -105,7 +107,7 @@ class FrontEnd:
         found, tracked, _ = self._search(
             self._previous, warped(picture, warp), warp, guess, predicted=self._predictable
         )
-        good = tracked & self._inside(self._left, found)
+        good = tracked & self._inside(self._left, found) & ~hidden(cover, found)
         old, self._pixel, self._depth = self._pixel, found, np.where(good, moved[:, 2], np.nan)
         after = normalise(self._left, self._pixel)
         turned = unit_rays(before) @ left_from_previous.rotation.T
@@ -131,17 +133,17 @@ class FrontEnd:
         found, tracked, error = _lucas_kanade(first, second, self._pixel, carried(back, guess), config.window, levels)
         return carried(warp, found), tracked, error
 
-    def _refill(self, picture: Picture) -> None:
+    def _refill(self, picture: Picture, cover: Cover | None) -> None:
         if len(self._pixel) > 0.92 * self._config.features:
             return
-        corners = self._grid.refill(picture, self._pixel)
+        corners = self._grid.refill(picture, self._pixel, cover)
         identities = np.arange(self._next_identity, self._next_identity + len(corners))
         self._next_identity += len(corners)
         self._identity = np.concatenate([self._identity, identities])
         self._pixel = np.concatenate([self._pixel, corners])
         self._depth = np.concatenate([self._depth, np.full(len(corners), np.nan)])
 
-    def _match(self, left: Picture, right: Picture, plane: Array) -> tuple[Array, Mask]:
+    def _match(self, left: Picture, right: Picture, plane: Array, cover: Cover | None) -> tuple[Array, Mask]:
         """Find the tracks, at `plane` (n, 2) in the left eye, in the right one: where, and which are good."""
         if self._ground is None:
             guesses = [np.full(len(plane), guess) for guess in FIRST_INVERSE_DEPTHS]
@@ -158,6 +160,8 @@ class FrontEnd:
             better = error < best_error
             best[better], best_error[better], best_depth[better] = where[better], error[better], depth[better]
         good = np.isfinite(best_error)
+        if cover is not None:
+            good &= ~hidden(cover, project(self._right, np.column_stack([best, np.ones(len(best))])))
         self._depth = np.where(good, best_depth, np.nan)
         self._ground = fit_inverse_depth(plane, self._depth)
         return best, good

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from robot_agent.odometry.landmarks import LEFT
 from robot_agent.odometry.outlier_rejection import consistent, unit_rays
+from robot_agent.odometry.own_legs import OwnLegs
 from robot_agent.odometry.tracks import Tracks
 from weaver_shared.messages import StereoFrame
 from weaver_shared.transforms import Pose
@@ -34,7 +35,7 @@ class RecordedTracks:
         self._wrong: set[int] = set()
         self._random = np.random.default_rng(7)
 
-    def step(self, frame: StereoFrame, left_from_previous: Pose) -> Tracks:
+    def step(self, frame: StereoFrame, left_from_previous: Pose, legs: OwnLegs | None = None) -> Tracks:
         """The tracks of the frame's stamp, whatever its pictures and the predicted motion."""
         found = self._sightings.get(frame.stamp_ns)
         if found is None:
