@@ -18,10 +18,11 @@ _POLL = 0.05
 class PseudoTerminal:
     """Serves `bus` under the stable name `link` until closed; `paced` delivers answers no sooner than a line would."""
 
-    def __init__(self, bus: EmulatedBus, link: Path, *, paced: bool = True) -> None:
+    def __init__(self, bus: EmulatedBus, link: Path, *, paced: bool = True, lock: threading.Lock | None = None) -> None:
         self.bus = bus
         self.link = link
         self._paced = paced
+        self._lock = lock or threading.Lock()
         self._ends: tuple[int, int] | None = None
         self._thread: threading.Thread | None = None
         self._ending = threading.Event()
@@ -61,7 +62,9 @@ class PseudoTerminal:
             if waiting:
                 pause = min(max(waiting[0].arrives_ns - time.monotonic_ns(), 0) * 1e-9, _POLL)
             if select.select([master], [], [], pause)[0]:
-                waiting += self.bus.transmit(os.read(master, 4096), time.monotonic_ns())
+                data = os.read(master, 4096)
+                with self._lock:
+                    waiting += self.bus.transmit(data, time.monotonic_ns())
             due_ns = time.monotonic_ns()
             ready = [reply for reply in waiting if reply.arrives_ns <= due_ns or not self._paced]
             if ready:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from dynamixel_sdk import PortHandler
 
+from robot_agent.hardware.servos.port import PortLostError, ServoPort
 from sim_agent.servo_bus.bus import EmulatedBus, Reply
 from weaver_shared.clock import SimulatedClock
 
@@ -67,6 +68,18 @@ class VirtualPort(PortHandler):  # type: ignore[misc]
             self.clock.sleep_until(min(self.next_arrival_ns(over_ns), over_ns))
         return super().isPacketTimeout()  # type: ignore[no-any-return]
 
+    def send(self, data: bytes) -> None:
+        self._check()
+        self.clearPort()
+        self.writePort(data)
+
+    def receive(self) -> bytes:
+        return self.readPort(self.getBytesAvailable())
+
+    def reopen(self) -> bool:
+        self.is_using = False
+        return self.plugged
+
     def next_arrival_ns(self, otherwise_ns: int) -> int:
         """When the next answer is here; now if one already is."""
         if self._here:
@@ -80,4 +93,12 @@ class VirtualPort(PortHandler):  # type: ignore[misc]
 
     def _check(self) -> None:
         if not self.plugged:
-            raise OSError(5, "Input/output error")
+            raise PortLostError("Input/output error")
+
+
+class VirtualLineClock(SimulatedClock):
+    """Waits for answers by going on to the first of them."""
+
+    def wait_for_answer(self, ports: Sequence[ServoPort], deadline_ns: int) -> None:
+        arrivals = [port.next_arrival_ns(deadline_ns) for port in ports if isinstance(port, VirtualPort)]
+        self.sleep_until(min([*arrivals, deadline_ns]))

@@ -49,6 +49,8 @@ class GroupAnswer:
 
     def finish(self) -> NDArray[np.bool_]:
         """Fill `data`, `error` and `valid` (n,) from what came; returns `valid`."""
+        if not self.ids:
+            return self.valid
         if len(self._bytes) != self._all or not self._take_all_at_once():
             self._take_one_by_one()
         return self.valid

@@ -1,0 +1,28 @@
+"""A wiring for a robot that does not exist: a bus for each side, and servos mounted as differently as real ones."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from robot_agent.hardware.servos.registers import CENTRE
+from weaver_shared.config.hardware import HardwareConfig, ServoBus, ServoSettings, WiredJoint
+from weaver_shared.robots import RobotDescription
+
+
+def twin_wiring(
+    robot: RobotDescription, folder: Path, *, baud: int = 3_000_000, settings: ServoSettings | None = None
+) -> HardwareConfig:
+    """Legs right of the body on one bus and left of it on the other; ports are names in `folder`."""
+    sides = ["right" if leg.hip_in_body[1] < 0.0 else "left" for leg in robot.legs]
+    joints = []
+    for index, name in enumerate(robot.joint_names):
+        side = sides[index // robot.joints_per_leg]
+        # Horns go onto their shafts in steps of 4 degrees, and half of the servos look the other way.
+        zero = CENTRE + 45 * (index % 5 - 2)
+        joints.append(WiredJoint(joint=name, bus=side, id=index + 1, zero=zero, reversed=index % 2 == 1))
+    return HardwareConfig(
+        robot=robot.name,
+        buses=tuple(ServoBus(name=side, port=str(folder / side), baud=baud) for side in ("right", "left")),
+        joints=tuple(joints),
+        servos=settings or ServoSettings(),
+    )

@@ -1,0 +1,67 @@
+"""Robots for hardware tests: a simulated one on a stand, alone, behind emulated buses in process and on terminals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, closing
+from pathlib import Path
+
+import pytest
+from hardware_bodies import BRISK, PATIENT, STAND, Twin
+
+from robot_agent.body import Body
+from robot_agent.hardware.opening import open_body
+from robot_agent.hardware.wiring import Wiring
+from sim_agent.body import SimulatedBody
+from sim_agent.model import sitting_joints
+from sim_agent.servo_bus.body_joints import BodyJoints
+from sim_agent.servo_bus.joints import FirstOrderJoints
+from sim_agent.servo_bus.twin import KIND, TwinServos, TwinTerminals
+from sim_agent.servo_bus.twin_wiring import twin_wiring
+from sim_agent.servo_bus.virtual_port import VirtualLineClock
+from sim_agent.worlds import make_world
+from weaver_shared.config.hardware import ServoSettings
+from weaver_shared.robots import RobotDescription, load_robot
+
+
+@pytest.fixture(scope="session")
+def robot() -> RobotDescription:
+    return load_robot("weaver")
+
+
+@pytest.fixture
+def make_twin(robot: RobotDescription, tmp_path: Path) -> Iterator[Callable[..., Twin]]:
+    """Makes prepared hardware bodies in process; on a stand unless told otherwise."""
+    with ExitStack() as stack:
+
+        def make(settings: ServoSettings = BRISK, *, held_at: float | None = STAND) -> Twin:
+            wiring = Wiring(twin_wiring(robot, tmp_path, settings=settings), robot)
+            simulated = stack.enter_context(closing(SimulatedBody(robot, make_world("flat", 1), 1, held_at=held_at)))
+            servos = TwinServos(wiring, lambda servos: BodyJoints(servos, simulated, wiring))
+            clock = VirtualLineClock(1_000_000_000)
+            body, ports = servos.in_process(clock)
+            stack.enter_context(closing(body)).prepare()
+            return Twin(body, servos, ports, clock, wiring, wanted=body.read().joint_position)
+
+        yield make
+
+
+@pytest.fixture(params=["simulated", "in process", "terminal"])
+def body(
+    request: pytest.FixtureRequest, robot: RobotDescription, tmp_path: Path, make_twin: Callable[..., Twin]
+) -> Iterator[Body]:
+    """One of the bodies that control may be given, on a stand."""
+    if request.param == "in process":
+        yield make_twin().body
+        return
+    if request.param == "simulated":
+        with closing(SimulatedBody(robot, make_world("flat", 1), 1, held_at=STAND)) as simulated:
+            yield simulated
+        return
+    # Simple joints: a simulator could not keep real time on a busy computer.
+    wiring = Wiring(twin_wiring(robot, tmp_path, settings=PATIENT), robot)
+    shafts = wiring.shaft(sitting_joints(robot))
+    servos = TwinServos(wiring, lambda servos: FirstOrderJoints(servos, start=shafts))
+    with TwinTerminals(servos, paced=False), closing(open_body(wiring, kind=KIND)) as real:
+        real.prepare()
+        yield real
