@@ -7,6 +7,9 @@ from random import Random
 KINDS = ("bits", "burst", "byte", "lost", "inserted", "cut")
 """1 to 3 flipped bits, up to 16 bits in a row, one byte, 1 to 3 bytes lost, 1 to 3 inserted, the end missing."""
 
+ONE_PLACE = ("byte", "lost", "inserted", "cut")
+"""What happens at one place of a record. Two damaged bytes can cancel each other out in a mere sum of bytes."""
+
 
 def damaged(record: bytes, kind: str, generator: Random) -> bytes:
     """A record that differs from `record` by one of KINDS."""

@@ -10,6 +10,7 @@ from typing import Protocol
 
 from robot_agent.hardware.hardware_body import HardwareBody
 from robot_agent.hardware.servos.port import ServoPort
+from robot_agent.hardware.sources import InertialSource, PowerSource
 from robot_agent.hardware.wiring import Wiring
 from sim_agent.servo_bus.bus import EmulatedBus
 from sim_agent.servo_bus.pseudo_terminal import PseudoTerminal
@@ -44,11 +45,13 @@ class TwinServos:
             for number, bus in enumerate(wiring.config.buses)
         }
 
-    def in_process(self, clock: VirtualLineClock) -> tuple[HardwareBody, dict[str, VirtualPort]]:
+    def in_process(
+        self, clock: VirtualLineClock, *, imu: InertialSource | None = None, power: PowerSource | None = None
+    ) -> tuple[HardwareBody, dict[str, VirtualPort]]:
         """A body that talks to the servos by function calls, and its ports."""
         ports = {name: VirtualPort(bus, clock, name) for name, bus in self.buses.items()}
         handed: dict[str, ServoPort] = dict(ports)
-        return HardwareBody(self.wiring, handed, clock, kind=KIND), ports
+        return HardwareBody(self.wiring, handed, clock, kind=KIND, imu=imu, power=power), ports
 
 
 class TwinTerminals:

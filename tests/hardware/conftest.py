@@ -10,10 +10,13 @@ import pytest
 from hardware_bodies import BRISK, PATIENT, STAND, Twin
 
 from robot_agent.body import Body
+from robot_agent.hardware.imu.stream import gx5_imu
 from robot_agent.hardware.opening import open_body
+from robot_agent.hardware.power_monitor import PowerMonitor
 from robot_agent.hardware.wiring import Wiring
 from sim_agent.body import SimulatedBody
 from sim_agent.model import sitting_joints
+from sim_agent.sensor_lines import EmulatedGx5, TwinSensors
 from sim_agent.servo_bus.body_joints import BodyJoints
 from sim_agent.servo_bus.joints import FirstOrderJoints
 from sim_agent.servo_bus.twin import KIND, TwinServos, TwinTerminals
@@ -37,11 +40,14 @@ def make_twin(robot: RobotDescription, tmp_path: Path) -> Iterator[Callable[...,
         def make(settings: ServoSettings = BRISK, *, held_at: float | None = STAND) -> Twin:
             wiring = Wiring(twin_wiring(robot, tmp_path, settings=settings), robot)
             simulated = stack.enter_context(closing(SimulatedBody(robot, make_world("flat", 1), 1, held_at=held_at)))
-            servos = TwinServos(wiring, lambda servos: BodyJoints(servos, simulated, wiring))
+            sensors = TwinSensors(EmulatedGx5())
+            servos = TwinServos(wiring, lambda servos: BodyJoints(servos, simulated, wiring, heard=sensors.hear))
             clock = VirtualLineClock(1_000_000_000)
-            body, ports = servos.in_process(clock)
+            imu, power = gx5_imu(sensors.imu_line, 200), PowerMonitor(sensors.power_line)
+            body, ports = servos.in_process(clock, imu=imu, power=power)
             stack.enter_context(closing(body)).prepare()
-            return Twin(body, servos, ports, clock, wiring, wanted=body.read().joint_position)
+            wanted = body.read().joint_position
+            return Twin(body, servos, sensors, ports, clock, wiring, wanted)
 
         yield make
 

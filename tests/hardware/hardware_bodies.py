@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from robot_agent.body import JointTargets
 from robot_agent.hardware.hardware_body import HardwareBody
 from robot_agent.hardware.wiring import Wiring
+from sim_agent.sensor_lines import TwinSensors
 from sim_agent.servo_bus.twin import TwinServos
 from sim_agent.servo_bus.virtual_port import VirtualLineClock, VirtualPort
 from weaver_shared.config.hardware import ServoSettings
@@ -21,14 +22,15 @@ BRISK = ServoSettings(start_time=0.1, start_speed=8.0)
 
 @dataclass
 class Twin:
-    """A hardware body in process, with the servos, ports and clock behind it."""
+    """A hardware body in process, with the servos, sensors, ports and clock behind it."""
 
     body: HardwareBody
     servos: TwinServos
+    sensors: TwinSensors
     ports: dict[str, VirtualPort]
     clock: VirtualLineClock
     wiring: Wiring
-    wanted: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    wanted: np.ndarray
 
     def run(self, ticks: int, *, torque: float = 6.0) -> None:
         for _ in range(ticks):

