@@ -8,7 +8,7 @@ from typing import Any
 
 from weaver_shared import codec
 from weaver_shared.messages import CommandName
-from weaver_shared.topics import COMMAND_KEY, ROOT, TOPICS
+from weaver_shared.topics import COMMANDS, QUERIES, ROOT, TOPICS
 
 TARGET = Path(__file__).with_name("messages.md")
 
@@ -27,10 +27,12 @@ row-major and little-endian. Another schema is refused with a sentence, never gu
 |---|---|---|---|---|
 """
 
-COMMANDS = f"""
+COMMANDS_PART = f"""
 ## Commands
-A query to `{COMMAND_KEY}` carries a `Command` and is answered with an `Answer`: accepted with what was really applied,
+A query to `{COMMANDS.key}` carries a `Command` and is answered with an `Answer`: accepted with what was really applied,
 or refused with a reason. The names: {{names}}.
+
+All questions, by their keys: {{queries}}.
 
 A process says that it is alive by the liveliness token `alive/{{{{process}}}}`.
 
@@ -46,8 +48,9 @@ def document() -> str:
         for topic in sorted(TOPICS, key=lambda topic: topic.key)
     ]
     names = ", ".join(f"`{name}`" for name in CommandName)
+    queries = ", ".join(f"`{q.key}` ({q.question.__name__} → {q.answer.__name__})" for q in QUERIES)
     kinds = [_kind(kind) for _, kind in sorted(codec.MESSAGES.items())]
-    return HEAD + "\n".join(rows) + "\n" + COMMANDS.format(names=names) + "\n".join(kinds)
+    return HEAD + "\n".join(rows) + "\n" + COMMANDS_PART.format(names=names, queries=queries) + "\n".join(kinds)
 
 
 def _rate(rate: float) -> str:

@@ -110,6 +110,8 @@ class CommandDesk:
             CommandName.MOVE_JOINT: self._moving(self._legs.move_joint),
             CommandName.PLACE_FOOT: self._moving(self._place_foot),
             CommandName.SET_POSING: self._moving(self._motion.set_posing),
+            CommandName.START_RECORDING: self._not_here,
+            CommandName.STOP_RECORDING: self._not_here,
         }
 
     def answer(self, command: Command) -> Answer:
@@ -406,6 +408,9 @@ class CommandDesk:
         if self._situation.mode not in ("STAND", "WALK"):
             raise InputError(f"the robot must stand before a foot is placed; it is in {self._situation.mode}")
         return self._footholds.place(command, self._situation.stamp_ns)
+
+    def _not_here(self, command: Command) -> Answer:
+        return self._refuse(f"{command.command.value} is for the robot's recorder")
 
     def _stop_cruise(self, _: Command) -> Answer:
         self._cruise.stop()

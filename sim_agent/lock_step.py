@@ -49,7 +49,7 @@ class LockStep:
         cv2.setNumThreads(1)
         self.clock = SimulatedClock()
         self.bus = MemoryBus()
-        self._robot_id = robot_id
+        self.robot_id = robot_id
         self.robot = robot
         self._tell_truth = tell_truth
         self._body = SimulatedBody(robot, world, seed)
@@ -81,6 +81,7 @@ class LockStep:
         if camera_due:
             scene = self._body.scene_state()
             frame = self._renderer.render(scene, frame_sequence(self.robot, scene.stamp_ns))
+            self.bus.publish(self.robot_id, topics.STEREO, frame)
             felt = self._vision.take_felt(frame.stamp_ns)
             if self.on_picture is not None:
                 self.on_picture(frame, felt)
@@ -88,7 +89,7 @@ class LockStep:
         self._ticks += 1
         truth = self._body.truth() if self._tell_truth else None
         if truth is not None:
-            self.bus.publish(self._robot_id, topics.TRUTH, truth)
+            self.bus.publish(self.robot_id, topics.TRUTH, truth)
         return Moment(walk=walk, sensed=sensed, vision=seen, truth=truth)
 
     def map(self) -> TerrainMap | None:

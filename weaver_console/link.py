@@ -12,7 +12,7 @@ from weaver_shared import topics
 from weaver_shared.bus import Bus
 from weaver_shared.clock import Clock, MonotonicClock
 from weaver_shared.errors import ConfigurationError
-from weaver_shared.messages import Answer, Command, Event, Heartbeat, Presence, Severity, TeleopFrame
+from weaver_shared.messages import Answer, Command, CommandName, Event, Heartbeat, Presence, Severity, TeleopFrame
 from weaver_shared.robots import RobotDescription, load_robot
 from weaver_shared.topics import Topic
 
@@ -33,9 +33,14 @@ WATCHED: tuple[Topic, ...] = (
     topics.MOTION,
     topics.LEASE,
     topics.MISSION,
+    topics.RECORDING,
     topics.TRUTH,
 )
 """Topics whose newest values the console keeps; presence, heartbeat and events are handled on their own."""
+
+RECORDER_COMMANDS = (CommandName.START_RECORDING, CommandName.STOP_RECORDING)
+RECORDER_TIMEOUT = 3.0
+"""s; the recorder has a disk to wait for."""
 
 
 class Link:
@@ -70,6 +75,8 @@ class Link:
             return self._records.get(robot_id)
 
     def request(self, robot_id: str, command: Command, timeout: float) -> Answer:
+        if command.command in RECORDER_COMMANDS:
+            return self.bus.ask(robot_id, topics.RECORDER_COMMANDS, command, RECORDER_TIMEOUT)
         return self.bus.request(robot_id, command, timeout)
 
     def teleoperate(self, robot_id: str, frame: TeleopFrame) -> None:

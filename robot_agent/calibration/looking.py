@@ -7,7 +7,7 @@ from typing import Protocol
 
 from robot_agent.calibration.chessboard_detector import ChessboardDetector
 from robot_agent.calibration.grid_detector import GridDetector
-from robot_agent.calibration.pictures import PictureSource
+from robot_agent.calibration.pictures import Pictures
 from robot_agent.calibration.sightings import Picture, Session, Sighting, View
 from robot_agent.calibration.target import AprilGrid, Target
 from weaver_shared.errors import InputError
@@ -21,7 +21,7 @@ def detector_of(target: Target) -> Detector:
     return GridDetector(target) if isinstance(target, AprilGrid) else ChessboardDetector(target)
 
 
-def look(source: PictureSource, target: Target, progress: Callable[[int], None] = lambda _: None) -> Session:
+def look(source: Pictures, target: Target, progress: Callable[[int], None] = lambda _: None) -> Session:
     """Every view with the target in at least one eye. Raises InputError where it is in none."""
     views = tuple(view for view in _views(source, target, progress) if view.seen > 0)
     if not views:
@@ -33,7 +33,7 @@ def look(source: PictureSource, target: Target, progress: Callable[[int], None] 
     return Session(views=views, sizes=source.sizes(), pictures=len(source))
 
 
-def _views(source: PictureSource, target: Target, progress: Callable[[int], None]) -> Iterator[View]:
+def _views(source: Pictures, target: Target, progress: Callable[[int], None]) -> Iterator[View]:
     detector = detector_of(target)
     for stamp, name, pictures in source:
         eyes = tuple(None if picture is None else detector.detect(picture) for picture in pictures)

@@ -1,4 +1,4 @@
-"""Where pictures to calibrate with come from: a folder of them, of pairs, or an ASL (EuRoC) recording."""
+"""Where pictures to calibrate with come from: a folder of them, of pairs, or a recording (ASL folder or MCAP)."""
 
 from __future__ import annotations
 
@@ -6,11 +6,14 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 import cv2
 import numpy as np
 
+from robot_agent.calibration.recorded_pictures import open_recorded_pictures
 from robot_agent.calibration.sightings import Picture
+from robot_agent.recording import is_recording
 from weaver_shared.errors import InputError
 from weaver_shared.messages import ImuBatch
 
@@ -20,6 +23,31 @@ SAME_INSTANT_NS = 2_000_000
 """Pictures of both eyes within this are one view."""
 
 _EYE = re.compile(r"^(left|right)(.*)$", re.IGNORECASE)
+
+
+class Pictures(Protocol):
+    """Pictures of one or two eyes by instant, and the inertia recorded with them, if any."""
+
+    @property
+    def folder(self) -> Path: ...
+
+    @property
+    def eyes(self) -> int: ...
+
+    @property
+    def inertia(self) -> ImuBatch | None:
+        """Samples at the instants of their stamps."""
+        ...
+
+    def __len__(self) -> int: ...
+
+    def sizes(self) -> tuple[tuple[int, int], ...]:
+        """Width and height of each eye's pictures, px."""
+        ...
+
+    def __iter__(self) -> Iterator[tuple[int, str, tuple[Picture | None, ...]]]:
+        """Stamp, name and pictures."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,8 +88,13 @@ class PictureSource:
             yield stamp, next(file.name for file in files if file is not None), pictures
 
 
-def open_pictures(folder: Path) -> PictureSource:
-    """ASL folder (mav0 or its parent), folder with left*/right* pairs, or with one eye's pictures."""
+def open_pictures(folder: Path) -> Pictures:
+    """A robot's own recording, ASL folder (mav0 or its parent), folder with left*/right* pairs, or one eye's pictures.
+
+    Raises InputError that says what is missing.
+    """
+    if is_recording(folder):
+        return open_recorded_pictures(folder)
     if not folder.is_dir():
         raise InputError(f"{folder} is not a folder; pictures or a recording with mav0/cam0 in it are needed")
     root = folder / "mav0" if (folder / "mav0").is_dir() else folder

@@ -72,8 +72,8 @@ def _add_source(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "pictures",
         type=Path,
-        metavar="DIR",
-        help="ASL recording (mav0/cam0, cam1, imu0), left*/right* pairs, or pictures",
+        metavar="DIR|FILE",
+        help="a robot's own recording (.mcap), ASL folder (mav0/cam0, cam1, imu0), left*/right* pairs, or pictures",
     )
     parser.add_argument("--target", type=Path, required=True, help="target.yaml: what the pictures show, sizes in m")
 

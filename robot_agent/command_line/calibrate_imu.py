@@ -11,7 +11,7 @@ import numpy as np
 
 from robot_agent.calibration.inertial_calibration import InertialEstimate, calibrate_imu
 from robot_agent.calibration.kalibr_files import read_imu, read_target, write_camchain, write_imu
-from robot_agent.calibration.pictures import PictureSource, open_pictures
+from robot_agent.calibration.pictures import Pictures, open_pictures
 from robot_agent.calibration.report import inertial_sections, write_report
 from robot_agent.calibration.rig import Rig
 from robot_agent.calibration.verdicts import Verdict, judge_imu
@@ -27,7 +27,9 @@ def run(options: argparse.Namespace) -> int:
         raise InputError(f"--knots {options.knots} per second is outside 10 to 200")
     source = open_pictures(options.pictures)
     if source.inertia is None:
-        raise InputError(f"{options.pictures} has no imu0/data.csv; the camera-IMU part needs the IMU's samples")
+        raise InputError(
+            f"{options.pictures} has no inertial samples (imu0/data.csv); the camera-IMU part needs the IMU's samples"
+        )
     check_sizes(rig, source, str(options.cameras))
     session = look_with_progress(options, target)
     if not options.quiet:
@@ -52,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def check_sizes(rig: Rig, source: PictureSource, name: str) -> None:
+def check_sizes(rig: Rig, source: Pictures, name: str) -> None:
     """Raises InputError where pictures and file can not belong together."""
     if rig.eyes != source.eyes:
         raise InputError(f"{name} has {rig.eyes} cameras, {source.folder} has pictures of {source.eyes}")

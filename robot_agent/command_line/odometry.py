@@ -1,4 +1,4 @@
-"""`weaver odometry DIR`: run the robot's odometry over a stereo-inertial recording."""
+"""`weaver odometry DIR` or `FILE.mcap`: run the robot's odometry over a stereo-inertial recording."""
 
 from __future__ import annotations
 
@@ -24,13 +24,16 @@ from robot_agent.evaluation.contact_recording import (
 )
 from robot_agent.evaluation.evo_metrics import evo_errors
 from robot_agent.evaluation.odometry_plots import draw
+from robot_agent.evaluation.robot_recording import RobotRecording, open_robot_recording
 from robot_agent.evaluation.track_recording import TrackRecording, open_tracks
 from robot_agent.evaluation.trajectory import Trajectory, evaluate, path_length, read_tum, write_tum
 from robot_agent.odometry import RecordedTracks, StereoInertialOdometry, warm_up
+from robot_agent.recording import is_recording
 from robot_agent.vision.camchain import read_camchain_on_imu
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.odometry import FailureConfig, FeetConfig, OdometryConfig, StartConfig, WindowConfig
 from weaver_shared.errors import InputError
+from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.messages import OdometryEstimate, OdometryQuality
 from weaver_shared.transforms import Pose, rotation_log
 
@@ -40,7 +43,7 @@ def main(arguments: list[str]) -> int:
     cv2.setNumThreads(1)
     recording, odometry = _source(options)
     truth = read_tum(options.groundtruth) if options.groundtruth else None
-    if truth is None and isinstance(recording, AslRecording):
+    if truth is None and isinstance(recording, AslRecording | RobotRecording):
         truth = recording.truth
     warm_up()
     estimates, milliseconds = _run(recording, odometry, options)
@@ -78,7 +81,8 @@ def _parser() -> argparse.ArgumentParser:
         metavar="DIR",
         type=Path,
         nargs="?",
-        help="EuRoC/ASL folder (mav0/cam0, cam1, imu0), or one of inertia and feet alone (imu.csv, contacts.csv)",
+        help="EuRoC/ASL folder (mav0/cam0, cam1, imu0), one of inertia and feet alone (imu.csv, contacts.csv), "
+        "or a robot's own recording (.mcap)",
     )
     source.add_argument("--tracks", metavar="FILE", type=Path, help="CSV of one camera's feature tracks and inertia")
     parser.add_argument("--groundtruth", metavar="FILE", type=Path, help="true poses in TUM format, s and m")
@@ -86,7 +90,9 @@ def _parser() -> argparse.ArgumentParser:
         "--calibration", metavar="FILE", type=Path, help="Kalibr's camchain.yaml with T_cam_imu, instead of DIR's own"
     )
     parser.add_argument(
-        "--contacts", action="store_true", help="also walk on the feet recorded in DIR's contacts.csv (body frame, m)"
+        "--contacts",
+        action="store_true",
+        help="also walk on the feet: those of a robot's own recording, or of DIR's contacts.csv (body frame, m)",
     )
     parser.add_argument(
         "--out", "--output", metavar="FILE", type=Path, help="write the trajectory in TUM format, s and m"
@@ -119,17 +125,19 @@ STRIDING = OdometryConfig(
 are said to be."""
 
 
-Recording = AslRecording | TrackRecording | ContactRecording
+Recording = AslRecording | RobotRecording | TrackRecording | ContactRecording
 
 
 def _source(options: argparse.Namespace) -> tuple[Recording, StereoInertialOdometry]:
     if options.tracks:
         return _tracks(options.tracks)
+    if is_recording(options.folder):
+        return _pictures(open_robot_recording(options.folder), options.calibration)
     if options.folder.is_dir() and is_contact_recording(options.folder) and not (options.folder / "mav0").is_dir():
         return _feet(options.folder)
     if options.contacts and not (options.folder / "contacts.csv").is_file():
         raise InputError(f"{options.folder} has no contacts.csv: leave --contacts out to go by pictures and inertia")
-    return _pictures(options.folder, options.calibration)
+    return _pictures(open_asl(options.folder), options.calibration)
 
 
 def _has_contacts(recording: Recording, options: argparse.Namespace) -> bool:
@@ -148,8 +156,9 @@ def _feet(folder: Path) -> tuple[ContactRecording, StereoInertialOdometry]:
     return recording, odometry
 
 
-def _pictures(folder: Path, calibration: Path | None) -> tuple[AslRecording, StereoInertialOdometry]:
-    recording = open_asl(folder)
+def _pictures(
+    recording: AslRecording | RobotRecording, calibration: Path | None
+) -> tuple[Recording, StereoInertialOdometry]:
     if calibration is not None:
         recording = replace(recording, calibration=_on_body(read_camchain_on_imu(calibration), recording))
     odometry = StereoInertialOdometry(
@@ -161,7 +170,7 @@ def _pictures(folder: Path, calibration: Path | None) -> tuple[AslRecording, Ste
     return recording, odometry
 
 
-def _on_body(pair: StereoCalibration, recording: AslRecording) -> StereoCalibration:
+def _on_body(pair: StereoCalibration, recording: AslRecording | RobotRecording) -> StereoCalibration:
     """A calibration on the IMU, carried to the recording's body."""
     left, right = (
         replace(eye, body_from_camera=recording.body_from_imu @ eye.body_from_camera) for eye in (pair.left, pair.right)
@@ -187,11 +196,7 @@ def _run(
 ) -> tuple[list[OdometryEstimate], list[float]]:
     estimates: list[OdometryEstimate] = []
     milliseconds: list[float] = []
-    felt = (
-        read_contacts(options.folder / "contacts.csv")
-        if isinstance(recording, AslRecording) and options.contacts
-        else None
-    )
+    felt = _feet_of(recording, options)
     for item in tqdm(recording, desc="odometry", unit=" frames", file=sys.stderr, disable=options.quiet):
         frame, inertia, *rest = item
         contacts = rest[0] if rest else felt
@@ -200,6 +205,15 @@ def _run(
         estimates.append(odometry.step(frame, inertia, contacts))
         milliseconds.append(1e3 * (time.process_time() - begin))
     return estimates, milliseconds
+
+
+def _feet_of(recording: Recording, options: argparse.Namespace) -> FootContacts | None:
+    """What the feet felt in a recording of pictures, if they are asked for."""
+    if not options.contacts:
+        return None
+    if isinstance(recording, RobotRecording):
+        return recording.contacts
+    return read_contacts(options.folder / "contacts.csv") if isinstance(recording, AslRecording) else None
 
 
 def _report(

@@ -7,16 +7,19 @@ import logging
 import socket
 import threading
 from collections.abc import Callable, Iterable
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 import zenoh
 
 from weaver_shared import codec
 from weaver_shared.errors import MessageError, ResourceError
 from weaver_shared.messages import Answer, Command
-from weaver_shared.topics import COMMAND_KEY, ROOT, Policy, Priority, Topic, robot_key
+from weaver_shared.topics import COMMANDS, ROOT, Policy, Priority, Query, Topic, robot_key
 
 logger = logging.getLogger(__name__)
+
+Q = TypeVar("Q")
+A = TypeVar("A")
 
 Receiver = Callable[[str, str, Any], None]
 """Called with robot id, key under the robot and the message; must return at once (put it into a LatestSlot)."""
@@ -42,6 +45,14 @@ class Bus(Protocol):
         """Send a command and wait for the answer. Raises ResourceError when the robot does not answer."""
         ...
 
+    def answer_queries(self, robot_id: str, query: Query[Q, A], answer: Callable[[Q], A]) -> None:
+        """Answer the questions of one kind that are sent to this robot."""
+        ...
+
+    def ask(self, robot_id: str, query: Query[Q, A], question: Q, timeout: float = 1.0) -> A:
+        """Send a question and wait for the answer. Raises ResourceError when nobody answers."""
+        ...
+
     def announce(self, robot_id: str, process: str) -> None:
         """Say that a process of this robot is alive for as long as the bus is open."""
         ...
@@ -59,7 +70,7 @@ class MemoryBus:
     def __init__(self) -> None:
         self._receivers: list[tuple[str, Topic, Receiver]] = []
         self._last: dict[tuple[str, str], tuple[Topic, Any]] = {}
-        self._servers: dict[str, Callable[[Command], Answer]] = {}
+        self._servers: dict[tuple[str, str], Callable[[Any], Any]] = {}
         self._alive: list[tuple[str, str]] = []
         self._watchers: list[Watcher] = []
 
@@ -78,12 +89,19 @@ class MemoryBus:
                 receiver(owner, key, message)
 
     def serve(self, robot_id: str, answer: Callable[[Command], Answer]) -> None:
-        self._servers[robot_id] = answer
+        self.answer_queries(robot_id, COMMANDS, answer)
 
     def request(self, robot_id: str, command: Command, timeout: float = 1.0) -> Answer:
-        if robot_id not in self._servers:
+        return self.ask(robot_id, COMMANDS, command, timeout)
+
+    def answer_queries(self, robot_id: str, query: Query[Q, A], answer: Callable[[Q], A]) -> None:
+        self._servers[robot_id, query.key] = answer
+
+    def ask(self, robot_id: str, query: Query[Q, A], question: Q, timeout: float = 1.0) -> A:
+        if (robot_id, query.key) not in self._servers:
             raise ResourceError(f"no robot {robot_id!r} on the bus")
-        return self._servers[robot_id](command)
+        reply: A = self._servers[robot_id, query.key](question)
+        return reply
 
     def announce(self, robot_id: str, process: str) -> None:
         self._alive.append((robot_id, process))
@@ -176,27 +194,36 @@ class ZenohBus:
             self._fetch(pattern, topic, receiver)
 
     def serve(self, robot_id: str, answer: Callable[[Command], Answer]) -> None:
-        key = robot_key(robot_id, COMMAND_KEY)
+        self.answer_queries(robot_id, COMMANDS, answer)
 
-        def handle(query: zenoh.Query) -> None:
-            with query:
+    def request(self, robot_id: str, command: Command, timeout: float = 1.0) -> Answer:
+        return self.ask(robot_id, COMMANDS, command, timeout)
+
+    def answer_queries(self, robot_id: str, query: Query[Q, A], answer: Callable[[Q], A]) -> None:
+        key = robot_key(robot_id, query.key)
+
+        def handle(asked: zenoh.Query) -> None:
+            with asked:
                 try:
-                    command = codec.decode(query.payload.to_bytes() if query.payload else b"", Command)
-                    reply = answer(command)
+                    question = codec.decode(asked.payload.to_bytes() if asked.payload else b"", query.question)
+                    reply = answer(question)
                 except MessageError as error:
-                    reply = Answer(accepted=False, reason=f"the command could not be read: {error}")
-                query.reply(key, codec.encode(reply))
+                    reply = query.refuse(f"the {query.question.__name__.lower()} could not be read: {error}")
+                asked.reply(key, codec.encode(reply))
 
         self._kept.append(self._session.declare_queryable(key, handle))
 
-    def request(self, robot_id: str, command: Command, timeout: float = 1.0) -> Answer:
-        key = robot_key(robot_id, COMMAND_KEY)
+    def ask(self, robot_id: str, query: Query[Q, A], question: Q, timeout: float = 1.0) -> A:
         replies = self._session.get(
-            key, payload=codec.encode(command), timeout=timeout, priority=zenoh.Priority.REAL_TIME, express=True
+            robot_key(robot_id, query.key),
+            payload=codec.encode(question),
+            timeout=timeout,
+            priority=_PRIORITIES[query.priority],
+            express=query.priority is Priority.REAL_TIME,
         )
         for reply in replies:
             if reply.ok is not None:
-                return codec.decode(reply.ok.payload.to_bytes(), Answer)
+                return codec.decode(reply.ok.payload.to_bytes(), query.answer)
         raise ResourceError(f"robot {robot_id!r} does not answer")
 
     def announce(self, robot_id: str, process: str) -> None:

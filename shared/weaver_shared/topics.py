@@ -1,11 +1,15 @@
 """The one table of what travels: key, message, rate, priority and policy. Recorder, console and docs derive from it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from weaver_shared import messages as m
 from weaver_shared.errors import ConfigurationError
+
+Q = TypeVar("Q")
+A = TypeVar("A")
 
 ROOT = "weaver"
 
@@ -43,6 +47,17 @@ class Topic:
         return f"{head}**" if brace else head
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Query(Generic[Q, A]):
+    """A question to one process of a robot, under `weaver/{robot_id}/`; `refuse` makes an answer of a reason."""
+
+    key: str
+    question: type[Q]
+    answer: type[A]
+    priority: Priority
+    refuse: Callable[[str], A]
+
+
 def _topic(key: str, message: type[Any], rate: float, priority: Priority, policy: Policy) -> Topic:
     return Topic(key=key, message=message, rate=rate, priority=priority, policy=policy)
 
@@ -65,6 +80,7 @@ MODE = _topic("state/mode", m.ModeState, 5.0, Priority.INTERACTIVE, Policy.RELIA
 MOTION = _topic("state/motion", m.MotionOrders, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 LEASE = _topic("state/lease", m.LeaseState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 MISSION = _topic("state/mission", m.MissionState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
+RECORDING = _topic("state/recording", m.RecordingState, 1.0, Priority.DATA, Policy.RELIABLE)
 PRESENCE = _topic("state/presence", m.Presence, 1.0, Priority.DATA, Policy.RELIABLE)
 EVENT = _topic("event", m.Event, 0.0, Priority.DATA, Policy.LOGGED)
 TELEOP = _topic("teleop", m.TeleopFrame, 20.0, Priority.REAL_TIME, Policy.LATEST)
@@ -75,8 +91,29 @@ TRUTH = _topic("truth/state", m.TruthState, 50.0, Priority.DATA, Policy.LATEST)
 
 TOPICS: tuple[Topic, ...] = tuple(value for value in list(globals().values()) if isinstance(value, Topic))
 
-COMMAND_KEY = "cmd"
-"""Queryable: a Command in, an Answer out."""
+
+def _refused(reason: str) -> m.Answer:
+    return m.Answer(accepted=False, reason=reason)
+
+
+def _no_part(reason: str) -> m.RecordingPart:
+    return m.RecordingPart(data=b"", size=0, reason=reason)
+
+
+COMMANDS = Query(key="cmd", question=m.Command, answer=m.Answer, priority=Priority.REAL_TIME, refuse=_refused)
+RECORDER_COMMANDS = Query(
+    key="cmd/recorder", question=m.Command, answer=m.Answer, priority=Priority.INTERACTIVE, refuse=_refused
+)
+RECORDING_PART = Query(
+    key="recording/part",
+    question=m.PartRequest,
+    answer=m.RecordingPart,
+    priority=Priority.BACKGROUND,
+    refuse=_no_part,
+)
+
+
+QUERIES: tuple[Query[Any, Any], ...] = (COMMANDS, RECORDER_COMMANDS, RECORDING_PART)
 
 
 def robot_key(robot_id: str, key: str) -> str:

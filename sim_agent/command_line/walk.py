@@ -7,6 +7,7 @@ import json
 import math
 import sys
 import time
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from tqdm import tqdm
 from robot_agent.adaptation import safe_gait
 from robot_agent.loops import CONTROL_RATE
 from robot_agent.mapping.files import MapSnapshot, load_map, save_map
+from robot_agent.recording import Recorder, RecordingWriter
 from sim_agent.lock_step import LockStep
 from sim_agent.mission import begin_mission
 from sim_agent.run_log import RunLog
@@ -41,28 +43,51 @@ def walk(options: argparse.Namespace, *, tell_truth: bool = True) -> dict[str, A
     robot = load_robot(options.robot_description)
     world = make_world(options.world, options.seed)
     run = LockStep(robot, world, options.seed, tell_truth=tell_truth)
+    recording = _Recording(run, Path(options.record)) if options.record else None
     log = RunLog(world=world, mass=robot.mass, dt=1.0 / CONTROL_RATE)
     started = time.monotonic()
     try:
         if known is not None:
             _enter(run, known, options.known_map)
-        reached = _mission(run, log, goal, options)
+        reached = _mission(run, log, goal, options, recording)
         if options.map:
             _save(run, Path(options.map))
     finally:
+        if recording is not None:
+            recording.close()
         run.close()
     simulated = run.clock.now_ns() * 1e-9
     wall = time.monotonic() - started
     return {"reached": reached, "digest": log.digest, "real_time_factor": simulated / wall, **log.figures()}
 
 
-def _mission(run: LockStep, log: RunLog, goal: Waypoint, options: argparse.Namespace) -> bool:
+class _Recording:
+    """All that the robot says in this run, in one file."""
+
+    def __init__(self, run: LockStep, path: Path) -> None:
+        started = datetime.now().astimezone().isoformat(timespec="seconds")
+        self._writer = RecordingWriter(path, robot_id=run.robot_id, robot=run.robot, clock=run.clock, started=started)
+        self._recorder = Recorder(run.bus, run.robot_id, self._writer)
+
+    def turn(self) -> None:
+        self._recorder.turn()
+
+    def close(self) -> None:
+        self._recorder.turn()
+        self._writer.close()
+
+
+def _mission(
+    run: LockStep, log: RunLog, goal: Waypoint, options: argparse.Namespace, recording: _Recording | None
+) -> bool:
     constant = None if options.adapt == "on" else safe_gait(run.robot.adaptation)
     begin_mission(run, (goal,), constant=constant, gait=options.gait, find_way=options.navigate == "auto")
     with tqdm(total=0, unit=" s", disable=not sys.stderr.isatty(), bar_format="{desc}") as bar:
         for tick in range(round(options.timeout * CONTROL_RATE)):
             moment = run.step()
             log.add(moment)
+            if recording is not None:
+                recording.turn()
             if tick % 100 == 0:
                 x, y, _ = moment.walk.state.world_from_body.position
                 bar.set_description_str(f"{tick / CONTROL_RATE:.0f} s, at {x:.2f}, {y:.2f} m")
@@ -132,6 +157,7 @@ def parser() -> argparse.ArgumentParser:
     result.add_argument("--seed", type=int, default=1, help="seed of the world and of all sensor noise")
     result.add_argument("--map", metavar="FILE", help="save the terrain map at the end, .npz; see `weaver map`")
     result.add_argument("--known-map", metavar="FILE", help="begin with a saved map of this place")
+    result.add_argument("--record", metavar="FILE", help="record messages and pictures, .mcap; see `weaver odometry`")
     result.add_argument("--timeout", type=float, default=600.0, help="simulated seconds before giving up")
     result.add_argument("--json", action="store_true", help="print one JSON object")
     return result

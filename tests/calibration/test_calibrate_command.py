@@ -6,6 +6,7 @@ import json
 import shutil
 import tomllib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -14,13 +15,19 @@ import pytest
 from target_scenes import GRID, IMU
 
 from robot_agent.calibration.kalibr_files import write_camchain, write_imu, write_target
+from robot_agent.calibration.pictures import open_pictures
 from robot_agent.calibration.rig import Rig
 from robot_agent.command_line import calibrate
+from robot_agent.recording import RecordingWriter
 from robot_agent.vision.camchain import read_chain
 from sim_agent.command_line import study_calibration
 from sim_agent.targets.motion import HandHeldMotion
 from sim_agent.targets.recording import RigTruth, TargetRecording, draw_rig
+from weaver_shared import topics
+from weaver_shared.clock import SimulatedClock
 from weaver_shared.command_line import main
+from weaver_shared.messages import Proprioception, StereoFrame
+from weaver_shared.robots import load_robot
 from weaver_shared.transforms import Pose, rotation_exp
 
 BOARDS = Path(__file__).resolve().parents[2].parent / "shared" / "data" / "calibration" / "stereo_chessboard"
@@ -54,6 +61,41 @@ def recording(truth: RigTruth, tmp_path_factory: pytest.TempPathFactory) -> Path
     write_imu(IMU, folder / "imu.yaml")
     write_camchain(truth.rig, folder / "truth.yaml")
     return folder
+
+
+@pytest.fixture(scope="module")
+def own_recording(recording: Path) -> Path:
+    """The same as a robot's own recording."""
+    root = recording / "mav0"
+    writer = RecordingWriter(
+        recording / "own.mcap", robot_id="sim-1", robot=load_robot(), clock=SimulatedClock(), started="now"
+    )
+    samples = open_pictures(recording).inertia
+    assert samples is not None
+    joints = np.zeros(load_robot().joint_count)
+    writer.write(
+        topics.PROPRIOCEPTION.key,
+        Proprioception(
+            stamp_ns=int(samples.stamp_ns[-1]),
+            joint_position=joints,
+            joint_velocity=joints,
+            joint_torque=joints,
+            joint_valid=joints == 0.0,
+            joint_temperature=joints,
+            foot_contact=np.ones(6, dtype=np.bool_),
+            # A robot tells means over the interval before a stamp: of steady 200 Hz, those in whose middle we sampled.
+            imu=replace(samples, stamp_ns=samples.stamp_ns + 2_500_000),
+            battery_voltage=25.0,
+            supply_current=1.0,
+            motor_power=20.0,
+        ),
+    )
+    for sequence, path in enumerate(sorted((root / "cam0" / "data").glob("*.png"))):
+        left, right = (cv2.imread(str(root / eye / "data" / path.name), 0) for eye in ("cam0", "cam1"))
+        frame = StereoFrame(stamp_ns=int(path.stem), sequence=sequence, left=left, right=right)
+        writer.write(topics.STEREO.key, frame)
+    writer.close()
+    return recording / "own.mcap"
 
 
 Run = Callable[..., tuple[int, dict[str, object], str]]
@@ -103,6 +145,28 @@ def test_camera_and_imu_of_a_recording(recording: Path, truth: RigTruth, tmp_pat
     chain = read_chain(tmp_path / "camchain-imucam.yaml")
     assert chain.time_offset == report["timeshift_cam_imu"]
     assert "gyro residuals" in (tmp_path / "report.html").read_text()
+
+
+def test_a_robots_own_recording_is_seen_as_the_folder_is(recording: Path, own_recording: Path, run: Run) -> None:
+    folder, own = open_pictures(recording), open_pictures(own_recording)
+    for (stamp, _, pictures), (own_stamp, _, own_pictures) in zip(folder, own, strict=True):
+        assert stamp == own_stamp
+        np.testing.assert_array_equal(np.array(pictures), np.array(own_pictures))
+    assert folder.inertia is not None
+    assert own.inertia is not None
+    for name in ("stamp_ns", "angular_velocity_in_imu", "specific_force_in_imu"):
+        np.testing.assert_array_equal(getattr(folder.inertia, name), getattr(own.inertia, name))
+    target = ("--target", recording / "target.yaml", "--cameras", recording / "truth.yaml")
+    code, report, _ = run("check", own_recording, *target)
+    assert (code, report["holds"]) == (0, True)
+
+
+def test_a_robots_own_recording_without_pictures_is_refused(tmp_path: Path, recording: Path, run: Run) -> None:
+    path = tmp_path / "blind.mcap"
+    RecordingWriter(path, robot_id="sim-1", robot=load_robot(), clock=SimulatedClock(), started="now").close()
+    target = ("--target", recording / "target.yaml", "--out", tmp_path)
+    assert "has no pictures; it was recorded without them" in refused(run("cameras", path, *target))
+    assert "can not be read: No such file" in refused(run("cameras", tmp_path / "no.mcap", *target))
 
 
 def test_a_true_file_holds_and_a_bent_one_does_not(recording: Path, truth: RigTruth, tmp_path: Path, run: Run) -> None:
@@ -168,7 +232,9 @@ def test_what_an_imu_recording_lacks_is_named(recording: Path, truth: RigTruth, 
     files = ("--imu", recording / "imu.yaml", "--target", recording / "target.yaml", "--out", tmp_path / "out")
     still = tmp_path / "still"
     shutil.copytree(recording / "mav0", still / "mav0", ignore=shutil.ignore_patterns("imu0"))
-    assert "no imu0/data.csv" in refused(run("imu", still, "--cameras", recording / "truth.yaml", *files))
+    assert "no inertial samples (imu0/data.csv)" in refused(
+        run("imu", still, "--cameras", recording / "truth.yaml", *files)
+    )
     one = Rig(
         models=truth.rig.models[:1],
         intrinsics=truth.rig.intrinsics[:1],

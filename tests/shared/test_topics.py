@@ -7,11 +7,18 @@ import pytest
 from weaver_shared import codec, topics
 from weaver_shared.errors import ConfigurationError
 from weaver_shared.messages import Answer, Command, Waypoint
-from weaver_shared.topics import MAP_TILE, MODE, TOPICS, Policy, Priority, robot_key, topic_of
+from weaver_shared.topics import MAP_TILE, MODE, QUERIES, TOPICS, Policy, Priority, robot_key, topic_of
 
 FILLED = {"process": "walk", "i": -3, "j": 12, "name": "left"}
-NOT_TOPICS = {"Command", "Answer"}  # these two are the query under COMMAND_KEY
-PARTS = {"AdaptationReport", "GaitParameters", "ImuBatch", "LoopTiming", "Waypoint"}  # travel within others
+ASKED = {kind.__name__ for query in QUERIES for kind in (query.question, query.answer)}
+PARTS = {
+    "AdaptationReport",
+    "GaitParameters",
+    "ImuBatch",
+    "LoopTiming",
+    "RecordingEntry",
+    "Waypoint",
+}  # travel within others
 
 
 def test_a_filled_key_leads_back_to_its_topic() -> None:
@@ -26,13 +33,18 @@ def test_no_topic_hides_another() -> None:
 
 
 def test_every_message_travels_somewhere() -> None:
-    assert {topic.message.__name__ for topic in TOPICS} | NOT_TOPICS | PARTS == set(codec.MESSAGES)
+    assert {topic.message.__name__ for topic in TOPICS} | ASKED | PARTS == set(codec.MESSAGES)
     assert {Command, Answer, Waypoint} <= set(codec.MESSAGES.values())
 
 
 def test_only_what_must_be_on_time_is_real_time() -> None:
     urgent = {topic.key for topic in TOPICS if topic.priority is Priority.REAL_TIME}
     assert urgent == {"hb", "teleop", "tele/odometry"}
+
+
+def test_a_refusal_of_any_question_keeps_its_reason() -> None:
+    assert [query.refuse("too late").reason for query in QUERIES] == ["too late"] * len(QUERIES)
+    assert len({query.key for query in QUERIES}) == len(QUERIES)
 
 
 def test_state_reaches_late_joiners() -> None:

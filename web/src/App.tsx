@@ -8,6 +8,7 @@ import { EventLog } from "./events/EventLog";
 import { Notices } from "./events/Notices";
 import { MissionPanel } from "./mission/MissionPanel";
 import { useUndoKeys } from "./mission/useUndoKeys";
+import { RecordingPanel } from "./recording/RecordingPanel";
 import { RobotPanel } from "./robot/RobotPanel";
 import { Views } from "./scene/Views";
 import { StatusPanel } from "./status/StatusPanel";
@@ -34,6 +35,7 @@ export function App() {
             <RobotPanel />
             <TeleopPanel />
             <BodyPanel />
+            <RecordingPanel />
           </div>
           <div className="panel-column">
             <AdaptationPanel />

@@ -17,6 +17,12 @@ from weaver_shared.messages.estimation import (
     TerrainEstimate,
     Waypoint,
 )
+from weaver_shared.messages.recording import (
+    PartRequest,
+    RecordingEntry,
+    RecordingPart,
+    RecordingState,
+)
 from weaver_shared.messages.sensing import (
     CameraPicture,
     ImuBatch,
@@ -67,9 +73,13 @@ __all__ = [
     "NavigationGoal",
     "OdometryEstimate",
     "OdometryQuality",
+    "PartRequest",
     "PowerState",
     "Presence",
     "Proprioception",
+    "RecordingEntry",
+    "RecordingPart",
+    "RecordingState",
     "RobotState",
     "RoutePlan",
     "SafetyAction",

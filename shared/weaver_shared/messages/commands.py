@@ -33,6 +33,8 @@ class CommandName(StrEnum):
     MOVE_JOINT = "move_joint"  # name: LEG_joint; value rad
     PLACE_FOOT = "place_foot"  # name: LEG.world, LEG.body; one waypoint x, y and value z (m): its next swing; seconds
     SET_POSING = "set_posing"  # name: automatic, levelling; value 1 or 0
+    START_RECORDING = "start_recording"  # value 1: with the stereo pictures, 0: without; the recorder's, needs no lease
+    STOP_RECORDING = "stop_recording"  # the recorder's, needs no lease
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,6 +10,7 @@ import type {
   ModeState,
   MotionOrders,
   PowerState,
+  RecordingState,
   RobotState,
   TruthState,
 } from "../protocol/messages";
@@ -26,6 +27,7 @@ export interface Topics {
   "state/motion": MotionOrders;
   "state/lease": LeaseState;
   "state/mission": MissionState;
+  "state/recording": RecordingState;
   "truth/state": TruthState;
   [health: `tele/health/${string}`]: Health;
 }

@@ -38,6 +38,8 @@ export const COMMAND_NAMES = [
   "move_joint",
   "place_foot",
   "set_posing",
+  "start_recording",
+  "stop_recording",
 ] as const;
 export type CommandName = (typeof COMMAND_NAMES)[number];
 
@@ -190,6 +192,27 @@ export interface EventMessage {
   severity: Severity;
   source: string;
   text: string;
+}
+
+export interface RecordingEntry {
+  name: string;
+  started: string;
+  seconds: number;
+  size: number;
+  pictures: boolean;
+  whole: boolean;
+}
+
+export interface RecordingState {
+  active: string;
+  seconds: number;
+  size: number;
+  pictures: boolean;
+  lost: number;
+  reason: string;
+  folder: string;
+  free: number;
+  entries: RecordingEntry[];
 }
 
 export interface TruthState {

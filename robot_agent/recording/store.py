@@ -1,0 +1,87 @@
+"""A robot's folder of recordings: their names, how long they are, and parts of them for who downloads one."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from datetime import datetime
+from pathlib import Path
+
+from robot_agent.recording.file_format import SUFFIX
+from robot_agent.recording.reader import open_recording
+from robot_agent.recording.span import recorded_span
+from weaver_shared.errors import InputError
+from weaver_shared.messages import PartRequest, RecordingEntry, RecordingPart
+
+LARGEST_PART = 4 * 1024 * 1024
+MOST_LISTED = 50
+_NAME = re.compile(rf"[A-Za-z0-9_-][A-Za-z0-9_.-]{{0,100}}{re.escape(SUFFIX)}")
+
+
+class RecordingStore:
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._known: dict[tuple[str, int, int], RecordingEntry | None] = {}
+
+    def new_path(self, robot_id: str, started: datetime) -> Path:
+        """A name that is not taken."""
+        stem = f"{robot_id}_{started:%Y-%m-%d_%H-%M-%S}"
+        path = self.folder / f"{stem}{SUFFIX}"
+        number = 2
+        while path.exists():
+            path = self.folder / f"{stem}_{number}{SUFFIX}"
+            number += 1
+        return path
+
+    def entries(self, active: str = "") -> tuple[RecordingEntry, ...]:
+        """The newest recordings, but not the one being written; files that are none of ours are left out."""
+        paths = sorted(self.folder.glob(f"*{SUFFIX}")) if self.folder.is_dir() else []
+        ours = [path for path in paths if path.name != active and _NAME.fullmatch(path.name)]
+        found = [entry for path in ours if (entry := self._entry(path)) is not None]
+        return tuple(sorted(found, key=lambda entry: entry.started, reverse=True)[:MOST_LISTED])
+
+    def free(self) -> int:
+        """B left on the disk."""
+        folder = self.folder
+        while not folder.exists() and folder != folder.parent:
+            folder = folder.parent
+        return shutil.disk_usage(folder).free
+
+    def part(self, request: PartRequest) -> RecordingPart:
+        """Some of a file's bytes; never raises."""
+        if not _NAME.fullmatch(request.name):
+            return _nothing(f"{request.name!r:.60} is not the name of a recording")
+        if request.offset < 0 or not 0 <= request.length <= LARGEST_PART:
+            return _nothing(f"a part begins at 0 or later and has up to {LARGEST_PART} B")
+        path = self.folder / request.name
+        try:
+            with path.open("rb") as stream:
+                stream.seek(request.offset)
+                return RecordingPart(data=stream.read(request.length), size=path.stat().st_size, reason="")
+        except OSError as error:
+            return _nothing(f"{request.name} can not be read: {error.strerror}")
+
+    def _entry(self, path: Path) -> RecordingEntry | None:
+        try:
+            status = path.stat()
+            key = (path.name, status.st_size, status.st_mtime_ns)
+            if key not in self._known:
+                self._known[key] = _described(path, status.st_size)
+            return self._known[key]
+        except OSError:
+            return None
+
+
+def _described(path: Path, size: int) -> RecordingEntry | None:
+    try:
+        about = open_recording(path).about
+    except InputError:
+        return None
+    seconds, whole = recorded_span(path)
+    return RecordingEntry(
+        name=path.name, started=about.started, seconds=seconds, size=size, pictures=about.pictures, whole=whole
+    )
+
+
+def _nothing(reason: str) -> RecordingPart:
+    return RecordingPart(data=b"", size=0, reason=reason)

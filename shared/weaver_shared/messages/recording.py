@@ -1,0 +1,46 @@
+"""What a robot's recorder tells, and hands out of its files."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordingEntry:
+    """One file that is not being written any more."""
+
+    name: str
+    started: str  # wall time, ISO 8601
+    seconds: float  # of the robot's time
+    size: int  # B
+    pictures: bool
+    whole: bool  # False: cut off by a crash; what is before the cut can be read
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordingState:
+    """The recording that runs, if any, and those that are there, newest first."""
+
+    active: str  # name of the file being written, empty when none is
+    seconds: float  # of the robot's time in it
+    size: int  # B in it
+    pictures: bool
+    lost: int  # messages that a slow disk had no room for
+    reason: str  # why the last one ended by itself; empty when it was stopped
+    folder: str  # on the robot
+    free: int  # B on its disk
+    entries: tuple[RecordingEntry, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PartRequest:
+    """Asks for `length` B of a recording from `offset` on."""
+
+    name: str
+    offset: int
+    length: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RecordingPart:
+    data: bytes
+    size: int  # B of the whole file
+    reason: str  # why there is nothing; empty when there is
