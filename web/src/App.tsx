@@ -35,11 +35,11 @@ export function App() {
             <RobotPanel />
             <TeleopPanel />
             <BodyPanel />
-            <RecordingPanel />
           </div>
           <div className="panel-column">
             <AdaptationPanel />
             <StatusPanel />
+            <RecordingPanel />
           </div>
         </div>
       </main>
