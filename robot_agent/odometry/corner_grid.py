@@ -125,16 +125,33 @@ def score_cell(
             score[v, u] = 0
             y, x = top + v, left + u
             middle = np.int64(picture[y, x])
-            # Nine in a row hold one of each two opposite points: most pixels fail here.
-            up, down = abs(picture[y - 3, x] - middle), abs(picture[y + 3, x] - middle)
-            if up <= threshold and down <= threshold:
+            # Nine in a row hold one of each two opposite points, both brighter or both darker: most pixels fail here.
+            up, down = np.int64(picture[y - 3, x]) - middle, np.int64(picture[y + 3, x]) - middle
+            if max(up, down) <= threshold and min(up, down) >= -threshold:
                 continue
-            right, back = abs(picture[y, x + 3] - middle), abs(picture[y, x - 3] - middle)
-            if right <= threshold and back <= threshold:
+            right, back = np.int64(picture[y, x + 3]) - middle, np.int64(picture[y, x - 3]) - middle
+            if min(max(up, down), max(right, back)) <= threshold and max(min(up, down), min(right, back)) >= -threshold:
                 continue
+            brighter, darker = 0, 0
             for n in range(16):
                 ring[n] = np.int64(picture[y + CIRCLE[1, n], x + CIRCLE[0, n]]) - middle
-            score[v, u] = _arc_score(ring, threshold)
+                if ring[n] > threshold:
+                    brighter |= 1 << n
+                elif ring[n] < -threshold:
+                    darker |= 1 << n
+            if _has_arc(brighter) or _has_arc(darker):
+                score[v, u] = _arc_score(ring, threshold)
+
+
+@compiled
+def _has_arc(bits: int) -> bool:
+    """Are ARC of 16 bits in a ring set in a row?"""
+    bits |= bits << 16
+    run = bits & (bits >> 1)
+    run &= run >> 2
+    run &= run >> 4
+    run &= bits >> (ARC - 1)
+    return (run & 0xFFFF) != 0
 
 
 @compiled

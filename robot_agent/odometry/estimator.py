@@ -95,6 +95,7 @@ class StereoInertialOdometry:
         self._legs: OwnLegs | None = None  # when the newest pair was taken
         self._way_waiting: Way | None = None  # of the body's origin over its feet, from the first picture to the start
         self._history: deque[Array] = deque()
+        self._remembered = 0.0  # s, of the history
         self._flows: deque[float] = deque(maxlen=100)  # px, motion seen in the last pictures
         self._pending: list[Array] = []  # inertia since the window's newest frame
         self._pending_trusted = True
@@ -181,6 +182,7 @@ class StereoInertialOdometry:
         self._stream = ImuStream(self._config.failure)
         self._feet = ContactStream(self._config.feet)
         self._history.clear()
+        self._remembered = 0.0
         self._stamp = None
         self._clear_pending()
 
@@ -359,9 +361,10 @@ class StereoInertialOdometry:
 
     def _remember(self, inertia: Inertia) -> None:
         self._history.append(inertia.samples)
+        self._remembered += float(inertia.samples[:, 0].sum())
         longest = self._config.rest.duration if self._started else self._config.start.patience
-        while len(self._history) > 1 and sum(float(s[:, 0].sum()) for s in self._history) > longest + 1e-6:
-            self._history.popleft()
+        while len(self._history) > 1 and self._remembered > longest + 1e-6:
+            self._remembered -= float(self._history.popleft()[:, 0].sum())
 
     def _recent(self) -> Array:
         return np.concatenate(self._history)

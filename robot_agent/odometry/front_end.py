@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from robot_agent.odometry.corner_grid import CornerGrid
 from robot_agent.odometry.depth_plane import fit_inverse_depth, inverse_depth
 from robot_agent.odometry.exposure import matched, picture_problem
-from robot_agent.odometry.ground_warp import carried, ground_warp, warped
+from robot_agent.odometry.ground_warp import carried, ground_warp, inverted, warped
 from robot_agent.odometry.landmarks import LEFT, RIGHT
 from robot_agent.odometry.outlier_rejection import consistent, unit_rays
 from robot_agent.odometry.own_legs import Cover, OwnLegs, hidden
@@ -103,7 +103,7 @@ class FrontEnd:
         moved = left_from_previous.transform(np.column_stack([before, np.ones(len(before))]) * depth[:, None])
         guess = project(self._left, moved)
         guess = np.where(np.isfinite(guess), guess, self._pixel)
-        warp = ground_warp(self._left, self._left, left_from_previous, self._ground)
+        warp = ground_warp(self._left, self._left, left_from_previous, self._ground, self._config.window)
         found, tracked, _ = self._search(
             self._previous, warped(picture, warp), warp, guess, predicted=self._predictable
         )
@@ -129,7 +129,7 @@ class FrontEnd:
         """Find the tracks of the first picture, near `guess` (n, 2), in the second, `warp`ed to look like it."""
         config = self._config
         levels = config.predicted_levels if predicted else config.levels
-        back: Array | None = None if warp is None else np.linalg.inv(warp).astype(np.float64)
+        back = None if warp is None else inverted(warp)
         found, tracked, error = _lucas_kanade(first, second, self._pixel, carried(back, guess), config.window, levels)
         return carried(warp, found), tracked, error
 
@@ -153,7 +153,7 @@ class FrontEnd:
         best = np.zeros((len(plane), 2))
         best_error = np.full(len(plane), np.inf)
         best_depth = np.full(len(plane), np.nan)
-        warp = ground_warp(self._left, self._right, self._right_from_left, self._ground)
+        warp = ground_warp(self._left, self._right, self._right_from_left, self._ground, self._config.window)
         seen = warped(right, warp)
         for guess in guesses:
             where, error, depth = self._match_from(left, seen, warp, plane, guess)

@@ -170,7 +170,7 @@ def _accumulate(
     """Add one frame's normal equations: its pose at `base`, and the landmark's own block."""
     for a in range(POSE):
         a0, a1, a2, a3 = rows[0, a], rows[1, a], rows[2, a], rows[3, a]
-        for b in range(POSE):
+        for b in range(a, POSE):
             poses[base + a, base + b] += a0 * rows[0, b] + a1 * rows[1, b] + a2 * rows[2, b] + a3 * rows[3, b]
         pull[base + a] += a0 * rows[0, ERROR] + a1 * rows[1, ERROR] + a2 * rows[2, ERROR] + a3 * rows[3, ERROR]
     for c in range(3):

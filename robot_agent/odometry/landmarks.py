@@ -48,15 +48,32 @@ class Landmarks(NamedTuple):
         self, slot: int, identity: NDArray[np.int64], observation: Array, seen: NDArray[np.uint8]
     ) -> NDArray[np.int64]:
         """Enter a frame's tracks; the row of each, -1 where the table is full."""
-        known = {name: row for row, name in enumerate(self.identity.tolist()) if name >= 0}
-        free = iter(np.flatnonzero(self.identity < 0).tolist())
-        rows = np.array([known[n] if n in known else next(free, -1) for n in identity.tolist()], dtype=np.int64)
-        entered = rows >= 0
-        at = rows[entered]
-        self.identity[at] = identity[entered]
-        self.observation[at, slot] = observation[entered]
-        self.seen[at, slot] = seen[entered]
-        return rows
+        return enter(self, slot, identity, observation, seen)
+
+
+@compiled
+def enter(
+    landmarks: Landmarks, slot: int, identity: NDArray[np.int64], observation: Array, seen: NDArray[np.uint8]
+) -> NDArray[np.int64]:
+    """Write a frame's tracks to their rows, new ones to free rows; the row of each, -1 where there was none left."""
+    rows = np.full(len(identity), -1, dtype=np.int64)
+    for n in range(len(identity)):
+        for row in range(landmarks.identity.shape[0]):
+            if landmarks.identity[row] == identity[n]:
+                rows[n] = row
+                break
+    free = 0
+    for n in range(len(identity)):
+        if rows[n] < 0:
+            while free < landmarks.identity.shape[0] and landmarks.identity[free] >= 0:
+                free += 1
+            if free == landmarks.identity.shape[0]:
+                continue
+            rows[n] = free
+            landmarks.identity[free] = identity[n]
+        landmarks.observation[rows[n], slot] = observation[n]
+        landmarks.seen[rows[n], slot] = seen[n]
+    return rows
 
 
 @compiled

@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.odometry.compiled import compiled
 from robot_agent.vision.camera import PinholeCamera
 from robot_agent.vision.distortion import project
 from weaver_shared.leg_batch import LegBatch
@@ -51,6 +52,8 @@ class OwnLegs:
     def cover(self, eye: PinholeCamera) -> Cover | None:
         """Squares of COARSE pixels of the eye's picture that show a leg (not zero); None where it shows none."""
         joints = self.joint_in_body
+        if eye.distortion_model == "none" and not _in_sight(joints, self.radius, *_frustum(eye)):
+            return None
         shape = joints.shape[:2]
         in_eye = eye.body_from_camera.inverse().transform(joints.reshape(-1, 3)).reshape(*shape, 3)
         begin, end = in_eye[:, :-1].reshape(-1, 3), in_eye[:, 1:].reshape(-1, 3)
@@ -67,6 +70,40 @@ class OwnLegs:
         for row in np.flatnonzero(shown):
             cv2.fillConvexPoly(cover, _outline(first[row], second[row], first_px[row], second_px[row]), 1)
         return cover
+
+
+def _frustum(eye: PinholeCamera) -> tuple[Array, Array, Array]:
+    """Rotation and position of the eye, and its picture's bounds (4,) on the plane z = 1: left, right, top, bottom."""
+    pose = eye.body_from_camera
+    left, right = (-MARGIN - eye.cx) / eye.fx, (eye.width + MARGIN - eye.cx) / eye.fx
+    top, bottom = (-MARGIN - eye.cy) / eye.fy, (eye.height + MARGIN - eye.cy) / eye.fy
+    return np.ascontiguousarray(pose.rotation), pose.position, np.array([left, right, top, bottom])
+
+
+@compiled
+def _in_sight(joints: Array, radius: float, rotation: Array, position: Array, bounds: Array) -> bool:
+    """Does some stick between `joints` (legs, m, 3) perhaps reach into the picture?
+
+    Not where both its ends lie beyond one and the same side of what the picture shows.
+    """
+    outside = np.empty((2, 5), dtype=np.bool_)
+    for leg in range(joints.shape[0]):
+        for n in range(joints.shape[1]):
+            x, y, z = 0.0, 0.0, 0.0
+            for a in range(3):
+                d = joints[leg, n, a] - position[a]
+                x += rotation[a, 0] * d
+                y += rotation[a, 1] * d
+                z += rotation[a, 2] * d
+            outside[1] = outside[0]
+            outside[0, 0] = z < NEAREST - radius
+            outside[0, 1] = bounds[0] * z - x > radius * np.sqrt(1.0 + bounds[0] ** 2)
+            outside[0, 2] = x - bounds[1] * z > radius * np.sqrt(1.0 + bounds[1] ** 2)
+            outside[0, 3] = bounds[2] * z - y > radius * np.sqrt(1.0 + bounds[2] ** 2)
+            outside[0, 4] = y - bounds[3] * z > radius * np.sqrt(1.0 + bounds[3] ** 2)
+            if n > 0 and not (outside[0] & outside[1]).any():
+                return True
+    return False
 
 
 def hidden(cover: Cover | None, pixel: Array) -> NDArray[np.bool_]:

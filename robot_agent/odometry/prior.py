@@ -72,9 +72,10 @@ class Prior:
 
     def remove_frame(self, slot: int) -> None:
         """Close the gap of a frame that is no longer in the system (eliminated, or never tied)."""
-        keep = np.delete(np.arange(unknowns(self.count)), np.arange(STATE * slot, STATE * (slot + 1)))
-        self.hessian = self.hessian[np.ix_(keep, keep)]
-        self.gradient = self.gradient[keep]
+        begin, end = STATE * slot, STATE * (slot + 1)
+        kept = ((slice(0, begin), slice(0, begin)), (slice(end, None), slice(begin, None)))
+        self.hessian = _copied(self.hessian, unknowns(self.count - 1), kept)
+        self.gradient = np.concatenate([self.gradient[:begin], self.gradient[end:]])
         self.origin.remove(slot)
         self.fixed[slot:-1] = self.fixed[slot + 1 :].copy()
         self.fixed[-1] = False
@@ -83,28 +84,32 @@ class Prior:
 
 def eliminate(hessian: Array, gradient: Array, slot: int) -> tuple[Array, Array]:
     """Schur complement that removes a frame's unknowns from a system but leaves their (zero) rows in place."""
-    gone = np.arange(STATE * slot, STATE * (slot + 1))
-    rest = np.delete(np.arange(len(gradient)), gone)
-    block = hessian[np.ix_(gone, gone)]
+    gone = slice(STATE * slot, STATE * (slot + 1))
+    block = hessian[gone, gone]
     # Scaling to a unit diagonal first: the unknowns differ by ten orders of magnitude in information.
     scale = 1.0 / np.sqrt(np.maximum(np.diag(block), 1e-12))
     values, vectors = np.linalg.eigh(block * np.outer(scale, scale))
     values = np.where(values > 1e-10, 1.0 / np.maximum(values, 1e-10), 0.0)
     inverse = (vectors * values) @ vectors.T * np.outer(scale, scale)
-    coupling = hessian[np.ix_(rest, gone)]
-    reduced = np.zeros_like(hessian)
-    kept = hessian[np.ix_(rest, rest)] - coupling @ inverse @ coupling.T
-    reduced[np.ix_(rest, rest)] = 0.5 * (kept + kept.T)
-    remaining = np.zeros_like(gradient)
-    remaining[rest] = gradient[rest] - coupling @ (inverse @ gradient[gone])
+    coupling = hessian[:, gone]
+    kept = hessian - coupling @ inverse @ coupling.T
+    reduced = 0.5 * (kept + kept.T)
+    remaining = gradient - coupling @ (inverse @ gradient[gone])
+    reduced[gone, :] = reduced[:, gone] = 0.0
+    remaining[gone] = 0.0
     return reduced, remaining
 
 
 def _insert(hessian: Array, gradient: Array, at: int) -> tuple[Array, Array]:
-    size = len(gradient)
-    place = np.concatenate([np.arange(at), np.arange(at, size) + STATE])
-    wider = np.zeros((size + STATE, size + STATE))
-    wider[np.ix_(place, place)] = hessian
-    longer = np.zeros(size + STATE)
-    longer[place] = gradient
-    return wider, longer
+    kept = ((slice(0, at), slice(0, at)), (slice(at, None), slice(at + STATE, None)))
+    longer = np.concatenate([gradient[:at], np.zeros(STATE), gradient[at:]])
+    return _copied(hessian, len(longer), kept), longer
+
+
+def _copied(source: Array, size: int, kept: tuple[tuple[slice, slice], ...]) -> Array:
+    """A square matrix of `size` with the rows and columns `kept` of another at new places, zero elsewhere."""
+    target = np.zeros((size, size))
+    for rows, new_rows in kept:
+        for columns, new_columns in kept:
+            target[new_rows, new_columns] = source[rows, columns]
+    return target

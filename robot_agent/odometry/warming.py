@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.odometry.estimator import StereoInertialOdometry
+from robot_agent.odometry.own_legs import OwnLegs
 from robot_agent.odometry.propagator import StatePropagator
 from robot_agent.odometry.rotations import exponential
 from robot_agent.vision.camera import StereoCalibration
@@ -29,6 +30,7 @@ def warm_up() -> None:
     odometry = StereoInertialOdometry(calibration=calibration, imu=robot.imu, initial=Pose.identity(), config=config)
     propagator = StatePropagator(robot.imu, Pose.identity())
     texture = np.random.default_rng(0).integers(0, 255, (120, 200), dtype=np.uint8).repeat(5, axis=0).repeat(5, axis=1)
+    legs = OwnLegs(joint_in_body=np.tile(FOOTHOLDS[:1], (1, 2, 1)), radius=0.03)
     height, width, disparity = calibration.left.height, calibration.left.width, 40
     for k in range(FRAMES):
         end = 50_000_000 * (k + 1)
@@ -42,7 +44,7 @@ def warm_up() -> None:
         right = np.ascontiguousarray(texture[:height, 60 + disparity :][:, :width])
         propagator.propagate(imu)
         frame = StereoFrame(stamp_ns=end, sequence=k, left=left, right=right)
-        propagator.correct(odometry.step(frame, imu, _standing(stamps)))
+        propagator.correct(odometry.step(frame, imu, _standing(stamps), legs))
     exponential(np.zeros(3))
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import LinAlgError, cho_factor, cho_solve
+from scipy.linalg.lapack import dpotrf, dpotrs
 
 from robot_agent.odometry.inertial_factor import add_inertia
 from robot_agent.odometry.landmark_elimination import Elimination, add_reprojections, move_points
@@ -177,21 +177,13 @@ class SlidingWindow:
         """(6, 6) of the newest IMU pose: rotation error (in imu, rad), position error (in world, m)."""
         if self._factor is None or len(self._factor) != unknowns(self.count):
             return np.diag(1.0 / np.diag(self._prior.hessian)[:6])
-        place = STATE * self.newest
-        columns = np.zeros((unknowns(self.count), 6))
-        columns[place : place + 6] = np.eye(6)
-        solved = cho_solve((self._factor, False), columns, check_finite=False)[place : place + 6]
-        return np.asarray(0.5 * (solved + solved.T))
+        return self._newest_covariance(0, 6)
 
     def bias_sigmas(self) -> Array:
         """(6,) standard deviations of the newest gyro (rad/s) and accelerometer bias (m/s^2)."""
         if self._factor is None or len(self._factor) != unknowns(self.count):
             return np.asarray(1.0 / np.sqrt(np.diag(self._prior.hessian)[GYRO_BIAS:STATE]))
-        place = STATE * self.newest + GYRO_BIAS
-        columns = np.zeros((unknowns(self.count), 6))
-        columns[place : place + 6] = np.eye(6)
-        solved = cho_solve((self._factor, False), columns, check_finite=False)[place : place + 6]
-        return np.asarray(np.sqrt(np.diag(solved)))
+        return np.asarray(np.sqrt(np.diag(self._newest_covariance(GYRO_BIAS, 6))))
 
     def _system(self, first: int, last: int, chosen: NDArray[np.bool_]) -> tuple[Array, Array]:
         """Hessian (upper triangle) and gradient of the prior, the inertia from `first` to `last`, and the `chosen`
@@ -238,13 +230,25 @@ class SlidingWindow:
     def _solve(self, hessian: Array, gradient: Array) -> Array | None:
         for damping in (0.0, 1e-9, 1e-6):
             hessian[np.diag_indices_from(hessian)] *= 1.0 + damping
-            try:
-                self._factor = cho_factor(hessian, lower=False, check_finite=False)[0]
-            except LinAlgError:
+            # LAPACK wants columns: to it the upper triangle of our rows is a lower one.
+            factor, failed = dpotrf(hessian.T, lower=1, clean=0)
+            if failed:
                 continue
-            step = -cho_solve((self._factor, False), gradient, check_finite=False)
+            self._factor = factor
+            step = -self._solved(gradient)
             return step if bool(np.isfinite(step).all()) else None
         return None
+
+    def _solved(self, right: Array) -> Array:
+        return np.asarray(dpotrs(self._factor, right, lower=1)[0])
+
+    def _newest_covariance(self, first: int, number: int) -> Array:
+        """Of `number` unknowns of the newest frame from `first` on, by the last solution."""
+        place = STATE * self.newest + first
+        columns = np.zeros((unknowns(self.count), number), order="F")
+        columns[place : place + number] = np.eye(number)
+        solved = self._solved(columns)[place : place + number]
+        return np.asarray(0.5 * (solved + solved.T))
 
     def _make_room(self) -> None:
         """Decide about the frame that is no longer one of the newest, and let the oldest keyframe go."""

@@ -39,6 +39,17 @@ def test_what_is_no_ground_is_not_warped(calibration: StereoCalibration) -> None
     assert warped(np.eye(4, dtype=np.uint8), None) is not None
 
 
+def test_what_hardly_bends_a_followed_square_is_not_worth_a_warp(calibration: StereoCalibration) -> None:
+    body, left, right = Walk().body(0.0), calibration.left, calibration.right
+    ground = _ground_in_left(calibration, body)
+    for way, worth in ((0.001, False), (0.03, True)):
+        ahead = body.rotation @ left.body_from_camera.rotation
+        second_from_first = Pose(rotation=np.eye(3), position=ahead.T @ np.array([-way, 0.0, 0.0]))
+        assert (ground_warp(left, left, second_from_first, ground, 13.0) is not None) == worth
+    right_from_left = right.body_from_camera.inverse() @ left.body_from_camera
+    assert ground_warp(left, right, right_from_left, ground, 13.0) is not None
+
+
 def test_slanted_ground_is_matched_without_bias(calibration: StereoCalibration) -> None:
     front_end = FrontEnd(calibration, FrontEndConfig())
     ground, body = TexturedGround(calibration, seed=3, noise=1.0), Walk().body(0.0)
