@@ -5,15 +5,28 @@ import pytest
 
 from robot_agent.locomotion import Walker, WalkOutput
 from robot_agent.locomotion.soak import soak
+from robot_agent.locomotion.soak.leg_orders import random_foothold, random_posture
 from robot_agent.locomotion.soak.robots import random_robot
-from weaver_shared.robots import robot_names
+from weaver_shared.robots import load_robot, robot_names
 
 
 def test_random_lives_of_all_robots_violate_nothing():
-    result = soak(2 * 200 * len(robot_names()), seed=3, life=200)
-    assert result.violations == ()
-    assert set(robot_names()) <= set(result.ticks_by_robot)
-    assert {"rising", "standing", "walking"} <= set(result.ticks_by_posture)
+    lives = 2 * len(robot_names())
+    results = [soak(1, seed=3, first=life, life=200) for life in range(lives)]
+    assert [result.violations for result in results] == [()] * lives
+    assert set(robot_names()) <= {robot for result in results for robot in result.ticks_by_robot}
+    seen = {posture for result in results for posture in result.ticks_by_posture}
+    assert {"rising", "standing", "walking", "changing"} <= seen
+
+
+def test_orders_for_legs_are_of_every_kind_and_often_wrong():
+    rng, robot = np.random.default_rng(1), load_robot("weaver")
+    footholds = [random_foothold(robot, rng) for _ in range(300)]
+    assert {order.leg for order in footholds} == set(range(-1, robot.leg_count + 1))
+    assert 10 < sum(not np.isfinite(order.place).all() for order in footholds) < 150
+    postures = [random_posture(rng) for _ in range(300)]
+    assert {"insectoid", "mammalian", ""} < {order.name for order in postures}
+    assert len({order.serial for order in postures}) < 300
 
 
 @pytest.mark.parametrize(

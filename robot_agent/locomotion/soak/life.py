@@ -9,15 +9,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.locomotion.postures import Postures
 from robot_agent.locomotion.soak.orders import RandomOrders
 from robot_agent.locomotion.soak.robots import random_robot
 from robot_agent.locomotion.walk_tick import WalkOutput
-from robot_agent.locomotion.walker import Walker
 from weaver_shared.robots import RobotDescription, load_robot, robot_names
 
 Array = NDArray[np.float64]
 
 TICKS_OF_A_LIFE = 1500
+CALM_LIFE = 4
+"""Times as long: so long a change of posture takes."""
 RATES = (50.0, 100.0, 200.0)  # Hz
 RESETS = 0.001
 """Chance, a tick, that the torque is taken off the joints and given back."""
@@ -81,7 +83,9 @@ def _live(robot: RobotDescription, rng: np.random.Generator, ticks: int, posture
     config = robot.locomotion.model_copy(
         update={"feel_ground": bool(rng.random() < 0.8), "compensate_servos": bool(rng.random() < 0.8)}
     )
-    walker, orders = Walker(robot, config, dt), RandomOrders(robot, rng)
+    calm = robot.posture is not None and rng.random() < 0.5
+    walker = Postures(robot.model_copy(update={"locomotion": config}), dt)
+    orders = RandomOrders(robot, rng, calm=calm)
     limits = np.tile(robot.joint_limits, (robot.leg_count, 1))
     speed = np.tile([robot.servos[joint.servo].no_load_speed for joint in robot.joints], robot.leg_count)
     joints = rng.uniform(limits[:, 0], limits[:, 1])
@@ -89,7 +93,7 @@ def _live(robot: RobotDescription, rng: np.random.Generator, ticks: int, posture
     if rng.random() < 0.5:
         joints = walker.begin_standing()
     out: WalkOutput | None = None
-    for tick in range(ticks):
+    for tick in range(CALM_LIFE * ticks if calm else ticks):
         sensed = orders.next(joints, out)
         let_go = bool(rng.random() < RESETS)
         try:
@@ -103,7 +107,7 @@ def _live(robot: RobotDescription, rng: np.random.Generator, ticks: int, posture
             return tick + 1, what
         postures[out.posture] += 1
         joints = out.joint_position
-    return ticks, ""
+    return tick + 1, ""
 
 
 def _wrong(out: WalkOutput, before: Array, limits: Array, largest_step: Array | float) -> str:
