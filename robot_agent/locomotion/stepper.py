@@ -35,6 +35,8 @@ FREE_OVERRUN, LARGEST_OVERRUN = 1.2, 1.5
 """In half strides: where a foot left too far behind begins to slow the body, and where it stops it."""
 SLOWNESS_TOLD = 0.02
 """Of the pace, lost to slow servos, from where on it is said."""
+LEANT = 0.95
+"""Of the automatic pose, with which a gait that needs it begins."""
 STOP_SLEW = 1.0
 """m/s^2 towards an end of the walk that a missed lift-off makes necessary."""
 
@@ -111,7 +113,7 @@ def begin_to_walk(walk: Record) -> None:
         at_lift_off = phase < 1e-9 or phase > 1.0 - 1e-9
         feet.lifted[leg] = phase < 1.0 - gait.duty and not at_lift_off
     gait.walking, gait.skipped, gait.halted = True, False, False
-    gait.pace, gait.waited = 1.0, 0.0
+    gait.pace, gait.waited = 0.0 if walk.posing.always else 1.0, 0.0
     forget_demand(walk)
 
 
@@ -121,7 +123,8 @@ def advance(walk: Record) -> None:
     gait, dt = walk.gait, walk.model.dt
     until_lift = until_next_lift(walk)
     reaching = count_mode(walk, REACH) > 0
-    follow_pace(walk, min(max(until_lift / BRAKING_STRIDE, 0.0), 1.0) if reaching else 1.0)
+    target = 0.0 if must_lean_first(walk) else 1.0
+    follow_pace(walk, min(max(until_lift / BRAKING_STRIDE, 0.0), 1.0) if reaching else target)
     strides = gait.frequency * dt * gait.pace
     if reaching and strides >= until_lift - 1e-4:
         strides = 0.0
@@ -132,7 +135,16 @@ def advance(walk: Record) -> None:
     else:
         gait.waited = 0.0
     advance_clock(walk, strides)
-    lift_feet(walk)
+    if not must_lean_first(walk):
+        lift_feet(walk)
+
+
+@kernel
+def must_lean_first(walk: Record) -> bool:
+    """Whether no foot may lift yet, because the body does not lean away from it as this gait needs."""
+    if not walk.posing.always or walk.posing.fade >= LEANT:
+        return False
+    return count_mode(walk, SWING) + count_mode(walk, REACH) == 0
 
 
 @kernel

@@ -66,6 +66,8 @@ ORDERS = np.dtype(
         ("target", F, (LEGS, 3)),  # m in the un-posed body
         ("posing_rotation", F, (3, 3)),  # unposed_from_body
         ("posing_position", F, (3,)),
+        ("still_rotation", F, (3, 3)),  # the same without what moves with the gait
+        ("still_position", F, (3,)),
     ]
 )
 
@@ -150,8 +152,13 @@ SPACE = np.dtype(
         ("middle", F, (LEGS, 3)),  # m in the posed body, the stance for which it holds
         ("moved", F, (LEGS,)),  # m from there to the stance of now
         ("leg", N),  # being renewed, -1 if none is
-        ("ray", N),  # the next one
+        ("ray", N),  # of its workspace, under way or the next
+        ("ray_begun", N),  # whether it is under way
         ("begun", F, (3,)),  # m, its stance
+        ("ray_begin", F, (3,)),  # m in the posed body, of the ray under way
+        ("ray_along", F, (3,)),
+        ("ray_joints", F, (JOINTS,)),  # rad, of the farthest place reached on it
+        ("ray_progress", F, (3,)),  # see `workspace`
     ]
 )
 
@@ -183,6 +190,9 @@ POSING = np.dtype(
         ("automatic", N),  # wanted, and planned for the gait
         ("levelling", N),  # wanted
         ("wanted", N),  # any of the three
+        ("always", N),  # the gait is not walked without its automatic pose
+        ("fade", F),  # 0..1, how much of that there is
+        ("ahead", F),  # strides
         ("idle", N),  # nothing wanted, and nothing of an earlier order under way
         ("amplitude", F, (LEGS, 6)),  # of every leg's swing in the automatic pose
         ("slope", F, (6,)),  # steepest, per stride

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -183,7 +185,7 @@ class Walker:
             self._footholds.step(sensed.footholds, self._poser.pose)
         upright = self._posture in UPRIGHT
         if self._unhindered and sensed.stand and not sensed.legs:
-            done = self._whole_tick(sensed.posing)
+            done = self._whole_tick(self._posing_of(sensed))
             if done != UNSTABLE:
                 self._posture, self._marched = UPRIGHT[done], 0.0
                 return self._answer(
@@ -244,6 +246,7 @@ class Walker:
             return (f"gait {name!r} is unknown",)
         stability = self._config.stability
         self._gait, self._gait_name, self._gait_is_static = gait, name, is_static(gait)
+        self._state.record["posing"]["always"] = self._leans = self._poser.leans(gait)
         self._calm_margins = (stability.warn_static, stability.warn_energy) if self._gait_is_static else NO_MARGINS
         self._state.record["orders"]["duty"] = gait.duty
         self._state.cut("orders", "offset")[:] = gait.offsets
@@ -280,7 +283,7 @@ class Walker:
                 self._velocity[:] = (MARCH, 0.0, 0.0)
                 self._marched += self._dt * float(self._state.record["gait"]["frequency"])
             self._hold_legs(sensed)
-            self._walk(sensed.posing if sensed.stand else NO_POSING)
+            self._walk(self._posing_of(sensed))
             if not self._manipulation.idle:
                 self._manipulation.turn_joints(self._angles, self._target.reshape(self._angles.shape))
             if sensed.stand:
@@ -301,6 +304,12 @@ class Walker:
         """Whether a foot stands too far from where it belongs to be lowered upon."""
         away = np.hypot(*(self._places - self._stances)[:, :2].T)
         return bool(away.max() > self._config.march_reach) and self._marched < LONGEST_MARCH
+
+    def _posing_of(self, sensed: WalkInput) -> PosingOrder:
+        """What is ordered of a robot that stands, and what the gait can not be walked without."""
+        ordered = sensed.posing if sensed.stand else NO_POSING
+        leans = self._leans and (self._posture == "walking" or bool(self._velocity.any()))
+        return replace(ordered, automatic=True) if leans and not ordered.automatic else ordered
 
     def _walk(self, posing: PosingOrder) -> None:
         if self._poser.idle and posing.idle:

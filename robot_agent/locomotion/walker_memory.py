@@ -38,7 +38,7 @@ def walker_memory(robot: RobotDescription, model: LegModel, config: LocomotionCo
     record["foot_depth"] = -stance[:, 2].mean()
     record["down_limit"] = stance[:, 2].min() - LOWEST_FOOTHOLD * model.reach
     record["up_limit"] = stance[:, 2].max() + HIGHEST_FOOTHOLD * model.reach
-    state.record["orders"]["posing_rotation"] = np.eye(3)
+    state.record["orders"]["posing_rotation"] = state.record["orders"]["still_rotation"] = np.eye(3)
     state.record["senses"]["up"] = state.record["senses"]["unposed_up"] = (0.0, 0.0, 1.0)
     gait = state.record["gait"]
     gait["frequency"] = config.frequency_bounds[1]

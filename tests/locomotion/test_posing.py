@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from robot_agent.kinematics import LegModel
 from robot_agent.locomotion import Walker, WalkInput
+from robot_agent.locomotion.ideal_walk import IdealWalk
 from robot_agent.locomotion.posing.automatic import bump, leg_amplitudes, steepest_slope, sway
 from robot_agent.locomotion.posing.levelling import step_levelling, tilt_error, tune_levelling
 from robot_agent.locomotion.posing.order import PosingOrder, bounded
@@ -91,17 +92,17 @@ def test_the_bump_begins_and_ends_without_speed_or_acceleration():
     assert bump(np.array([-0.5, 1.5])).any() == 0
 
 
-@given(st.sampled_from(sorted(GAITS)), st.floats(0.05, 5.0), st.floats(0.0, 1.0))
-def test_the_automatic_pose_never_exceeds_its_rate(name, frequency, phase):
+@given(st.sampled_from(sorted(GAITS)), st.floats(0.05, 5.0), st.floats(0.0, 1.0), st.floats(0.0, 0.3))
+def test_the_automatic_pose_never_exceeds_its_rate(name, frequency, phase, ahead):
     gait = GAITS[name]
     amplitude = leg_amplitudes(ROBOT.stance_in_body, AutomaticPose(shift=0.05, lift=0.05, roll=0.2, pitch=0.2))
     rate = np.repeat([POSING.position_rate, POSING.rotation_rate], 3)
-    slope = steepest_slope(gait.offsets, gait.swing, amplitude)
+    slope = steepest_slope(gait.offsets, gait.swing, ahead, amplitude)
     step = 1e-4
 
     def pose(at):
         result = np.zeros(6)
-        sway((at + gait.offsets) % 1.0, gait.swing, amplitude, slope, rate, frequency, result)
+        sway((at + gait.offsets) % 1.0, gait.swing, ahead, amplitude, slope, rate, frequency, result)
         return result
 
     speed = (pose(phase + step * frequency) - pose(phase)) / step
@@ -113,7 +114,7 @@ def test_the_body_leans_away_from_the_feet_in_the_air():
     phases = np.ones(6)
     phases[5] = 0.15  # the front left foot in mid swing
     pose = np.zeros(6)
-    sway(phases, 0.3, amplitude, np.ones(6), np.full(6, 9.0), 1.0, pose)
+    sway(phases, 0.3, 0.0, amplitude, np.ones(6), np.full(6, 9.0), 1.0, pose)
     x, y, _, roll, pitch, _ = pose
     assert x < 0.0
     assert y < 0.0
@@ -261,6 +262,21 @@ def test_the_automatic_pose_comes_with_the_walk_and_goes_with_it():
     assert min(rolls[200:]) == pytest.approx(-0.015, rel=0.15)
     ideal.run(3.0, automatic=True)
     np.testing.assert_allclose(ideal.pose.matrix, np.eye(4), atol=1e-12)
+
+
+@pytest.mark.parametrize("velocity", [(0.03, 0.0, 0.0), (0.0, 0.03, 0.0), (0.0, -0.03, 0.0), (0.0, 0.0, 0.08)])
+def test_a_robot_on_four_feet_leans_before_it_lifts_one(velocity):
+    robot = load_robot("magneto")
+    config = robot.locomotion.model_copy(update={"spare_servos": False})
+    tick = IdealWalk(robot, config, velocity=np.array(velocity), frequency=0.5).replay(1000)
+    outs = [tick() for _ in range(1000)]
+    assert min(out.stability_margin for out in outs) > 0.005
+    np.testing.assert_allclose(
+        np.mean([out.velocity for out in outs[400:]], axis=0), velocity, atol=0.05 * max(velocity)
+    )
+    swings = np.array([out.swing for out in outs])
+    assert swings.any(axis=0).all()
+    assert swings.sum(axis=1).max() == 1
 
 
 def test_levelling_makes_the_body_level_on_a_slope_that_posture_would_follow():

@@ -2,7 +2,8 @@
 
 OpenSHC's automatic pose gives each gait phases and amplitudes; here each leg adds one bump during its own swing, in the
 direction its foot stands in, so that the same few amplitudes serve any gait and number of legs. The bump
-64 s^3 (1 - s)^3 begins and ends without speed or acceleration.
+64 s^3 (1 - s)^3 begins and ends without speed or acceleration; it may begin before the foot lifts, so that the body
+already leans when it does, and end as long after the landing.
 """
 
 from __future__ import annotations
@@ -41,26 +42,27 @@ def leg_amplitudes(stance_in_body: Array, amplitudes: AutomaticPose) -> Array:
     return result * share
 
 
-def steepest_slope(offset: Array, swing: float, amplitude: Array) -> Array:
+def steepest_slope(offset: Array, swing: float, ahead: float, amplitude: Array) -> Array:
     """Largest change, (6,) per stride, of the sum over legs whose phases lie `offset` (legs,) apart."""
     phases = np.linspace(0.0, 1.0, SAMPLES + 1)
-    path = bump((phases[:, None] + offset) % 1.0 / swing) @ amplitude
+    path = bump((phases[:, None] + offset + ahead) % 1.0 / (swing + 2.0 * ahead)) @ amplitude
     result: Array = np.abs(np.diff(path, axis=0)).max(axis=0) * SAMPLES
     return result
 
 
 @kernel
 def sway(
-    leg_phase: Array, swing: float, amplitude: Array, slope: Array, rates: Array, frequency: float, values: Array
-) -> None:
+    leg_phase: Array, swing: float, ahead: float, amplitude: Array, slope: Array, rates: Array, frequency: float,
+    values: Array,
+) -> None:  # fmt: skip
     """Fill `values` (6,) with the sum over the legs, made smaller where a fast gait would exceed `rates` (6,) per s.
 
-    `leg_phase` (legs,) is 0 at lift-off; `swing` the fraction of a stride in the air; `amplitude` (legs, 6); `slope`
-    (6,) that of `steepest_slope`; `frequency` Hz.
+    `leg_phase` (legs,) is 0 at lift-off; `swing` the fraction of a stride in the air, `ahead` that of which the bumps
+    are longer on either side; `amplitude` (legs, 6); `slope` (6,) that of `steepest_slope`; `frequency` Hz.
     """
     values[:] = 0.0
     for leg in range(leg_phase.size):
-        s = leg_phase[leg] / swing
+        s = (leg_phase[leg] + ahead) % 1.0 / (swing + 2.0 * ahead)
         if s < 1.0:
             height = 64.0 * (s * (1.0 - s)) ** 3
             for k in range(6):

@@ -23,19 +23,22 @@ LIMITED, VALUE, MEANS = 0, 1, 2
 @kernel
 def pose_body(walk: Record, slews: Array) -> None:
     """Set how the body is posed in this tick."""
-    posing, rotation, position = walk.posing, walk.orders.posing_rotation, walk.orders.posing_position
+    posing, orders = walk.posing, walk.orders
+    rotation, position = orders.posing_rotation, orders.posing_position
     turn, place, wanted = np.empty((3, 3)), np.empty(3), np.zeros(6)
     slew(posing, slews, MANUAL, posing.manual)
     to_pose(slews[MANUAL, VALUE], rotation, position)
     wanted[0] = 1.0 if posing.automatic and walk.gait.walking else 0.0
     slew(posing, slews, FADE, wanted)
     fade = slews[FADE, VALUE, 0]
+    posing.fade = fade
+    still_turn, still_place = rotation.copy(), position.copy()
     if fade != 0.0:
         gait, values = walk.gait, np.empty(6)
         legs = walk.model.legs
         sway(
-            gait.leg_phase[:legs], 1.0 - gait.duty, posing.amplitude, posing.slope, posing.rates, gait.frequency,
-            values,
+            gait.leg_phase[:legs], 1.0 - gait.duty, posing.ahead, posing.amplitude, posing.slope, posing.rates,
+            gait.frequency, values,
         )  # fmt: skip
         for k in range(6):
             values[k] *= fade
@@ -51,6 +54,9 @@ def pose_body(walk: Record, slews: Array) -> None:
         clear_levelling(posing)
     slew(posing, slews, LEVEL, wanted)
     to_pose(slews[LEVEL, VALUE], turn, place)
+    orders.still_rotation[:] = turn
+    orders.still_position[:] = place
+    append(orders.still_rotation, orders.still_position, still_turn, still_place)
     append(turn, place, rotation, position)
     rotation[:] = turn
     position[:] = place
@@ -66,8 +72,8 @@ def rest(walk: Record, slews: Array) -> None:
     for which in range(3):
         posing.idle = posing.idle and posing.still[which] > longest
     if posing.idle:
-        orders.posing_rotation[:] = np.eye(3)
-        orders.posing_position[:] = 0.0
+        orders.posing_rotation[:] = orders.still_rotation[:] = np.eye(3)
+        orders.posing_position[:] = orders.still_position[:] = 0.0
 
 
 @kernel

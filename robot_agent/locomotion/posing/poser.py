@@ -58,7 +58,9 @@ class Poser:
         self.slews[:] = 0.0
         self._record["still"] = self.slews.shape[1] + 1
         clear_levelling(self._record)
-        self._record["idle"], self._orders["posing_rotation"], self._orders["posing_position"] = True, np.eye(3), 0.0
+        self._record["idle"], self._record["fade"] = True, 0.0
+        self._orders["posing_rotation"] = self._orders["still_rotation"] = np.eye(3)
+        self._orders["posing_position"] = self._orders["still_position"] = 0.0
         self._planned: tuple[PosingOrder, bool] | None = None
         self.idle = True  # un-posed, and stays so
         self.reasons: tuple[str, ...] = ()
@@ -84,6 +86,11 @@ class Poser:
         self._record["automatic"] = order.automatic and gait is self._gait
         self._record["levelling"], self._record["wanted"] = order.levelling, not order.idle
 
+    def leans(self, gait: Gait) -> bool:
+        """Whether the body moves with this gait unasked."""
+        pose = self._config.automatic.get(gait.name)
+        return pose is not None and pose.always
+
     def rest(self) -> None:
         """After a tick: whether the pose has come to rest."""
         self.idle = bool(self._record["idle"])
@@ -93,6 +100,8 @@ class Poser:
     def _choose(self, gait: Gait) -> None:
         """At a change of gait its own pose fades out before that of the new one fades in."""
         self._gait = gait
-        amplitude = leg_amplitudes(self._nominal, self._config.automatic.get(gait.name, AutomaticPose()))
+        pose = self._config.automatic.get(gait.name, AutomaticPose())
+        amplitude = leg_amplitudes(self._nominal, pose)
         self._record["amplitude"][: len(amplitude)] = amplitude
-        self._record["slope"] = steepest_slope(gait.offsets, gait.swing, amplitude)
+        self._record["ahead"] = pose.ahead
+        self._record["slope"] = steepest_slope(gait.offsets, gait.swing, pose.ahead, amplitude)

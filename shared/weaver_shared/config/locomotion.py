@@ -104,6 +104,8 @@ class AutomaticPose(BaseModel):
     lift: float = 0.0
     roll: float = 0.0  # swinging side up
     pitch: float = 0.0  # swinging end up
+    ahead: float = Field(default=0.0, ge=0.0, le=0.5)  # strides for which it begins before a lift, ends after a landing
+    always: bool = False  # also unasked, and awaited before the first foot lifts: the others would not carry the robot
 
 
 class PosingConfig(BaseModel):

@@ -7,7 +7,7 @@ from numpy_tick.servo_pace import forget_demand, pace_for
 from numpy_tick.stride import stride_of
 from robot_agent.locomotion import reasons
 from robot_agent.locomotion.gait_clock import GLIDE
-from robot_agent.locomotion.stepper import BRAKING_STRIDE, PACE_TIME, SLOWNESS_TOLD, STOP_SLEW
+from robot_agent.locomotion.stepper import BRAKING_STRIDE, LEANT, PACE_TIME, SLOWNESS_TOLD, STOP_SLEW
 
 STAND, SWING, REACH, HANG = range(4)
 
@@ -37,7 +37,8 @@ def begin(walk):
     gait.leg_phase = (gait.phase + gait.offset) % 1.0
     at_lift_off = (gait.leg_phase < 1e-9) | (gait.leg_phase > 1.0 - 1e-9)
     walk.feet.lifted = (gait.leg_phase < 1.0 - gait.duty) & ~at_lift_off
-    gait.walking, gait.skipped, gait.halted, gait.pace, gait.waited = True, False, False, 1.0, 0.0
+    gait.walking, gait.skipped, gait.halted, gait.waited = True, False, False, 0.0
+    gait.pace = 0.0 if walk.posing.always else 1.0
     forget_demand(walk)
 
 
@@ -59,7 +60,7 @@ def advance(walk):
     due = (on_ground & (feet.lifted == 0)) | (gait.leg_phase >= 1.0 - gait.duty)
     until_lift = min([1.0, *(1.0 - gait.leg_phase[due])])
     reaching = (feet.mode == REACH).any()
-    follow_pace(walk, np.clip(until_lift / BRAKING_STRIDE, 0.0, 1.0) if reaching else 1.0)
+    follow_pace(walk, np.clip(until_lift / BRAKING_STRIDE, 0.0, 1.0) if reaching else float(leans(walk)))
     strides = gait.frequency * dt * gait.pace
     if reaching and strides >= until_lift - 1e-4:
         strides, gait.waited = 0.0, gait.waited + dt
@@ -69,7 +70,14 @@ def advance(walk):
     else:
         gait.waited = 0.0
     run_clock(walk, strides)
-    lift_feet(walk)
+    if leans(walk):
+        lift_feet(walk)
+
+
+def leans(walk):
+    """Whether a foot may lift: the body leans as the gait needs, or has already begun without."""
+    posing = walk.posing
+    return not posing.always or posing.fade >= LEANT or np.isin(walk.feet.mode, (SWING, REACH)).any()
 
 
 def follow_pace(walk, target):

@@ -11,15 +11,17 @@ def pose_body(walk, slews):
     posing, gait = walk.posing, walk.gait
     manual = pose_of(slew(walk, slews, MANUAL, posing.manual))
     on = 1.0 if posing.automatic and gait.walking else 0.0
-    fade = slew(walk, slews, FADE, np.array([on, 0.0, 0.0, 0.0, 0.0, 0.0]))[0]
-    height = bump(gait.leg_phase / (1.0 - gait.duty)) @ posing.amplitude
+    fade = posing.fade = slew(walk, slews, FADE, np.array([on, 0.0, 0.0, 0.0, 0.0, 0.0]))[0]
+    longer = 1.0 - gait.duty + 2.0 * posing.ahead
+    height = bump((gait.leg_phase + posing.ahead) % 1.0 / longer) @ posing.amplitude
     calm = np.minimum(1.0, posing.rates / np.maximum(posing.slope * gait.frequency, 1e-12))
     unlevelled = manual @ pose_of(fade * calm * height)
     roll, pitch = level(walk, unlevelled.rotation @ walk.senses.up)
-    pose = pose_of(slew(walk, slews, LEVEL, np.array([0.0, 0.0, 0.0, roll, pitch, 0.0]))) @ unlevelled
+    levelling = pose_of(slew(walk, slews, LEVEL, np.array([0.0, 0.0, 0.0, roll, pitch, 0.0])))
     posing.idle = not posing.wanted and (walk.posing.still > slews.shape[1] - MEANS).all()
-    pose = Pose.identity() if posing.idle else pose
+    pose, still = (Pose.identity(),) * 2 if posing.idle else (levelling @ unlevelled, levelling @ manual)
     walk.orders.posing_rotation, walk.orders.posing_position = pose.rotation, pose.position
+    walk.orders.still_rotation, walk.orders.still_position = still.rotation, still.position
 
 
 def pose_of(values):
