@@ -21,6 +21,7 @@ DAMPING = 1e-3
 LARGEST_ERROR = 0.25
 """Of the stretched leg length, that one step tries to undo."""
 ITERATIONS = 24
+"""Enough to reach whatever can be reached."""
 ALIGNMENT_GAIN = 0.3
 LARGEST_MISALIGNMENT = 0.1
 """rad (its sine) that the last link is turned by as if it were no more, so that joint limits weigh more."""
@@ -41,6 +42,7 @@ def solve_damped(
     foot_in_body: Array,
     direction: Array,
     tolerance: float,
+    iterations: int,
     solution: Array,
 ) -> float:
     """Move `solution` (n,), the starting guess, to the foot within the joint limits; returns the distance left, m.
@@ -56,7 +58,7 @@ def solve_damped(
     best, best_solution, start, at_start = np.inf, solution.copy(), solution.copy(), np.inf
     damping = (DAMPING * reach) ** 2
     stopped = np.zeros(n, dtype=np.bool_)
-    for iteration in range(ITERATIONS):
+    for iteration in range(iterations):
         leg_frames(dh, hip_in_body, hip_axes, solution, origins, axes)
         for k in range(3):
             error[k] = foot_in_body[k] - origins[n, k]

@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from robot_agent.kinematics.closed_form import solve_closed_form
 from robot_agent.kinematics.compiled import kernel
-from robot_agent.kinematics.damped import solve_damped
+from robot_agent.kinematics.damped import ITERATIONS, solve_damped
 from robot_agent.kinematics.yaw_pitch import solve_yaw_pitch
 
 Array = NDArray[np.float64]
@@ -32,6 +32,27 @@ def solve_leg(
 
     A foot that is not finite leaves the joints where they were and returns infinity.
     """
+    return solve_leg_to(
+        dh, limits, closed_form, hip_in_body, hip_axes, foot_in_body, direction, TOLERANCE, ITERATIONS, previous,
+        solution,
+    )  # fmt: skip
+
+
+@kernel
+def solve_leg_to(
+    dh: Array,
+    limits: Array,
+    closed_form: int,
+    hip_in_body: Array,
+    hip_axes: Array,
+    foot_in_body: Array,
+    direction: Array,
+    tolerance: float,
+    iterations: int,
+    previous: Array,
+    solution: Array,
+) -> float:
+    """`solve_leg` with so many `iterations` at most, content at a distance of `tolerance` m."""
     for k in range(3):
         if not (np.isfinite(foot_in_body[k]) and np.isfinite(direction[k])):
             solution[:] = previous
@@ -44,7 +65,7 @@ def solve_leg(
     if exact:
         return 0.0
     solution[:] = previous
-    return solve_damped(dh, limits, hip_in_body, hip_axes, foot_in_body, direction, TOLERANCE, solution)
+    return solve_damped(dh, limits, hip_in_body, hip_axes, foot_in_body, direction, tolerance, iterations, solution)
 
 
 @kernel

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.kinematics.compiled import kernel
-from robot_agent.kinematics.damped import solve_damped
+from robot_agent.kinematics.damped import ITERATIONS, solve_damped
 
 Array = NDArray[np.float64]
 
@@ -35,7 +35,8 @@ def solve_within_speed(
     for i in range(n):
         box[i, 0] = max(limits[i, 0], previous[i] - largest_step[i])
         box[i, 1] = min(limits[i, 1], previous[i] + largest_step[i])
-    if solve_damped(dh, box, hip_in_body, hip_axes, foot_in_body, direction, tolerance, found) > tolerance:
+    left = solve_damped(dh, box, hip_in_body, hip_axes, foot_in_body, direction, tolerance, ITERATIONS, found)
+    if left > tolerance:
         return False
     solution[:] = found
     return True

@@ -4,15 +4,17 @@ import numpy as np
 
 from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.body_speed import TURN_RADIUS, speed_of
-from robot_agent.locomotion.feet import STAND
+from robot_agent.locomotion.excursion import largest_excursion, ways_left
 from robot_agent.locomotion.reasons import STRIDE, VELOCITY
 from robot_agent.locomotion.walk_state import Array, Record
-from robot_agent.locomotion.walkspace import largest_excursion, velocity_scale
+from robot_agent.locomotion.walkspace import velocity_scale
 
 STILL = 1e-4
 """m/s or rad/s under which a command means stop."""
 HALVINGS = 5
 """Of a tick's change of velocity."""
+SPARE = 1e-6
+"""Of a walkspace, by which rounding may leave it."""
 
 
 @kernel
@@ -30,46 +32,43 @@ def follow_velocity(walk: Record) -> None:
 
 @kernel
 def keep_within_walkspace(walk: Record, wanted: Array) -> None:
-    """Take as much of the change to `wanted` (3,) as leaves every standing foot in its walkspace until it lifts.
+    """Change the commanded velocity to `wanted` (3,) as far as every foot stays in its walkspace until it lifts next.
 
-    This is the limit of acceleration: feet that were put down for a lower speed have less way left. A robot may always
-    slow down.
+    Feet that were put down for another velocity may have less way left. A robot may always brake, so what is taken is
+    a share of the change from braking to the wanted velocity; no foot leaves its walkspace farther than braking can
+    help.
     """
-    gait, legs = walk.gait, walk.model.legs
-    share, time_left = 1.0, np.zeros(legs)
-    if gait.walking and speed_of(wanted) > speed_of(gait.commanded):
-        for leg in range(legs):
-            lifts_now = gait.leg_phase[leg] < 1.0 - gait.duty and not walk.feet.lifted[leg]
-            if walk.feet.mode[leg] == STAND and not lifts_now:
-                time_left[leg] = (1.0 - gait.leg_phase[leg]) / gait.frequency
-        share = _affordable(walk, wanted, time_left)
-    for k in range(3):
-        gait.commanded[k] += share * (wanted[k] - gait.commanded[k])
+    commanded, legs = walk.gait.commanded, walk.model.legs
+    if walk.gait.walking:
+        ways = np.empty((legs, 4))
+        ways_left(walk, ways)
+        if largest_excursion(walk, wanted, ways) > 1.0 + SPARE:
+            slow_down = walk.settings.largest_speed / walk.settings.stop_time
+            approach(commanded, np.zeros(3), 0.0, slow_down, walk.model.dt)
+            share = _affordable(walk, wanted, ways)
+            for k in range(3):
+                commanded[k] += share * (wanted[k] - commanded[k])
+            return
+    commanded[:] = wanted
 
 
 @kernel
-def _affordable(walk: Record, wanted: Array, time_left: Array) -> float:
-    """The share 0..1 of the change to `wanted` that the feet's ways allow, found by halving."""
-    gait, trial = walk.gait, np.empty(3)
+def _affordable(walk: Record, wanted: Array, ways: Array) -> float:
+    """The share 0..1 of the change from the commanded velocity to `wanted` that the feet's ways allow, by halving."""
+    braked, trial = walk.gait.commanded, np.empty(3)
     share, step = 1.0, 1.0
-    allowed = max(1.0, _excursion(walk, gait.commanded, time_left)) + 1e-6
+    allowed = max(1.0, largest_excursion(walk, braked, ways)) + SPARE
     for _ in range(HALVINGS):
         for k in range(3):
-            trial[k] = gait.commanded[k] + share * (wanted[k] - gait.commanded[k])
+            trial[k] = braked[k] + share * (wanted[k] - braked[k])
         step *= 0.5
-        if _excursion(walk, trial, time_left) > allowed:
+        if largest_excursion(walk, trial, ways) > allowed:
             share -= step
         elif share == 1.0:
             return 1.0
         else:
             share += step
     return max(share - step, 0.0)
-
-
-@kernel
-def _excursion(walk: Record, velocity: Array, time_left: Array) -> float:
-    model, feet, legs = walk.model, walk.feet, walk.model.legs
-    return largest_excursion(velocity, feet.place[:legs], feet.stance[:legs], model.radius, walk.space.moved, time_left)
 
 
 @kernel

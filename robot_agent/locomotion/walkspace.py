@@ -68,30 +68,3 @@ def velocity_scale(
             room = max(radius_towards(radius[leg], x, y) - moved[leg], 0.0)
             scale = min(scale, min(room, 0.5 * largest_stride) / half)
     return scale
-
-
-@kernel
-def largest_excursion(
-    velocity: Array, place: Array, stance: Array, radius: Array, moved: Array, time_left: Array
-) -> float:
-    """How far any foot will be from its stance when it lifts next, in radii, if the body keeps its `velocity`.
-
-    `time_left` (legs,) s is that until then; zero or less for feet that do not count.
-    """
-    worst = 0.0
-    for leg in range(place.shape[0]):
-        if time_left[leg] <= 0.0:
-            continue
-        angle = -velocity[2] * time_left[leg]
-        sine, versine = 1.0, 0.5 * angle
-        if abs(angle) > 1e-6:
-            sine, versine = np.sin(angle) / angle, (1.0 - np.cos(angle)) / angle
-        # the twist's exponential: the way of the body, turned along the arc
-        vx = (-velocity[0] + velocity[2] * place[leg, 1]) * time_left[leg]
-        vy = (-velocity[1] - velocity[2] * place[leg, 0]) * time_left[leg]
-        x = place[leg, 0] + sine * vx - versine * vy - stance[leg, 0]
-        y = place[leg, 1] + versine * vx + sine * vy - stance[leg, 1]
-        far = np.sqrt(x * x + y * y)
-        if far > 0.0:
-            worst = max(worst, far / max(radius_towards(radius[leg], x, y) - moved[leg], 1e-4))
-    return worst

@@ -1,6 +1,8 @@
 """Where a leg can put its foot: how far from its stance, in every direction, at several heights of the ground.
 
-A ray ends where the joints are at their limits, and before a leg is so nearly stretched that its foot becomes slow.
+A ray ends where the joints are at their limits, and before a leg is so nearly stretched that its foot becomes slow. It
+is searched outwards, every place from the joints of the one before, so that a foot can go all the way in one posture;
+`extend_ray` can be left and taken up again.
 """
 
 import numpy as np
@@ -8,20 +10,24 @@ from numpy.typing import NDArray
 
 from robot_agent.kinematics import LegModel
 from robot_agent.kinematics.compiled import kernel
-from robot_agent.kinematics.inverse import solve_leg
+from robot_agent.kinematics.inverse import solve_leg_to
 
 Array = NDArray[np.float64]
 
 BEARINGS = 36
 """Bearing i is 360 i / BEARINGS degrees from the body's x axis."""
-RADIUS_STEP = 0.012
-"""Of the leg's length."""
-HALVINGS = 4
+RADIUS_STEP = 0.06
+"""Of the leg's length; an arc about the hip rises by a thousandth of it between two places so far apart."""
+HALVINGS = 6
 """Of the last step, the one that was not reached any more."""
+FAR, STEP, HALVED = 0, 1, 2
+"""Of a ray's progress: m within reach, m of the next step, and how often that was halved."""
 REACHED = 0.003
 """Distance left, of the leg's length, at which a place counts as reached."""
 LIMIT_MARGIN = 0.05
 """rad kept from every joint limit."""
+ITERATIONS = 8
+"""For one place; a leg that has not got there by then is at its limits, and gets there by chance if at all."""
 USED = 0.9
 """Of the reach; beyond, legs are nearly stretched and their feet slow."""
 LARGEST_TURN = 0.5
@@ -102,25 +108,55 @@ def length_of_ray(
     largest: float, standing: Array,
 ) -> float:  # fmt: skip
     """How far, m, a foot can move from `begin` (3,) in body `along` a direction (3,)."""
-    n = dh.shape[0]
-    guess, joints, foot = standing.copy(), np.empty(n), np.empty(3)
-    down = np.array([0.0, 0.0, -1.0])
-    reach = np.abs(dh[:, 1:3]).sum()
-    step, far, halvings = RADIUS_STEP * reach, 0.0, 0
-    left = solve_leg(dh, limits, closed_form, hip, hip_axes, begin, down, guess, joints)
-    if left > REACHED * reach:
-        return 0.0
-    guess[:] = joints
-    while USED * far < largest and halvings <= HALVINGS:
+    joints, progress = standing.copy(), np.empty(3)
+    ends = not begin_ray(dh, limits, closed_form, hip, hip_axes, begin, joints, progress)
+    while not ends:
+        ends = extend_ray(dh, limits, closed_form, hip, hip_axes, begin, along, largest, joints, progress)
+    length: float = min(USED * progress[FAR], largest)
+    return length
+
+
+@kernel
+def begin_ray(
+    dh: Array, limits: Array, closed_form: int, hip: Array, hip_axes: Array, begin: Array, joints: Array,
+    progress: Array,
+) -> bool:  # fmt: skip
+    """Reach for a ray's `begin` (3,) from a guess in `joints` (n,); False where that is beyond the leg's reach."""
+    guess = joints.copy()
+    progress[FAR], progress[STEP], progress[HALVED] = 0.0, RADIUS_STEP * np.abs(dh[:, 1:3]).sum(), 0.0
+    return reaches(dh, limits, closed_form, hip, hip_axes, begin, guess, joints)
+
+
+@kernel
+def extend_ray(
+    dh: Array, limits: Array, closed_form: int, hip: Array, hip_axes: Array, begin: Array, along: Array,
+    largest: float, joints: Array, progress: Array,
+) -> bool:  # fmt: skip
+    """Go on outwards until a place is not reached; returns whether the ray has come to its end."""
+    foot, found = np.empty(3), np.empty(joints.size)
+    while USED * progress[FAR] < largest:
         for k in range(3):
-            foot[k] = begin[k] + (far + step) * along[k]
-        left = solve_leg(dh, limits, closed_form, hip, hip_axes, foot, down, guess, joints)
-        if left > REACHED * reach or turned(guess, joints) > LARGEST_TURN:
-            step, halvings = 0.5 * step, halvings + 1
-            continue
-        guess[:] = joints
-        far += step
-    return min(USED * far, largest)
+            foot[k] = begin[k] + (progress[FAR] + progress[STEP]) * along[k]
+        reached = reaches(dh, limits, closed_form, hip, hip_axes, foot, joints, found)
+        if not reached or turned(joints, found) > LARGEST_TURN:
+            progress[STEP] *= 0.5
+            progress[HALVED] += 1.0
+            return bool(progress[HALVED] > HALVINGS)
+        joints[:] = found
+        progress[FAR] += progress[STEP]
+    return True
+
+
+@kernel
+def reaches(
+    dh: Array, limits: Array, closed_form: int, hip: Array, hip_axes: Array, foot: Array, guess: Array, joints: Array
+) -> bool:
+    """Whether a leg reaches a `foot` (3,) in body; `joints` (n,) with which it does, found from a `guess` (n,)."""
+    down = np.array([0.0, 0.0, -1.0])
+    spare = REACHED * np.abs(dh[:, 1:3]).sum()
+    return bool(
+        solve_leg_to(dh, limits, closed_form, hip, hip_axes, foot, down, spare, ITERATIONS, guess, joints) <= spare
+    )
 
 
 @kernel

@@ -15,7 +15,7 @@ from robot_agent.kinematics import (
     link_gravity_torque,
     solve_leg,
 )
-from robot_agent.kinematics.damped import solve_damped
+from robot_agent.kinematics.damped import ITERATIONS, solve_damped
 from robot_agent.kinematics.leg_model import is_yaw_roll_pitch
 from weaver_shared.robots import load_robot, robot_names
 from weaver_shared.robots.forward_kinematics import joint_frames_in_body
@@ -175,7 +175,15 @@ def test_damped_least_squares_finds_the_same_feet_without_the_closed_form(leg, f
     direction = (origins[5] - origins[4]) / ROBOT.dh[4, 2]
     solution = np.clip(angles + 0.05, MODEL.limits[:, 0], MODEL.limits[:, 1])
     left = solve_damped(
-        MODEL.dh, MODEL.limits, MODEL.hips[leg], MODEL.hip_axes[leg], origins[5].copy(), direction, 1e-6, solution
+        MODEL.dh,
+        MODEL.limits,
+        MODEL.hips[leg],
+        MODEL.hip_axes[leg],
+        origins[5].copy(),
+        direction,
+        1e-6,
+        ITERATIONS,
+        solution,
     )
     assert left < 1e-4
     np.testing.assert_allclose(frames(leg, solution)[0][5], origins[5], atol=1e-4)

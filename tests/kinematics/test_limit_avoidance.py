@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from robot_agent.kinematics import LegModel, foot_jacobian, leg_frames
-from robot_agent.kinematics.damped import solve_damped
+from robot_agent.kinematics.damped import ITERATIONS, solve_damped
 from robot_agent.kinematics.within_speed import is_too_fast, solve_within_speed
 from weaver_shared.robots import load_robot
 
@@ -37,7 +37,7 @@ class Leg:
     def solve(self, foot, joints, limits=None):
         found = joints.copy()
         limits = self.model.limits if limits is None else limits
-        left = solve_damped(self.model.dh, limits, self.hip, self.axes, foot, DOWN, TOLERANCE, found)
+        left = solve_damped(self.model.dh, limits, self.hip, self.axes, foot, DOWN, TOLERANCE, ITERATIONS, found)
         return left, found
 
     def within_speed(self, foot, joints, found, largest):
@@ -119,5 +119,5 @@ def test_the_same_leg_ten_times_as_large_turns_its_joints_the_same_way():
     large, dh = joints.copy(), leg.model.dh.copy()
     dh[:, 1:3] *= 10.0
     foot = leg.hip + 10.0 * (there - leg.hip)
-    solve_damped(dh, leg.model.limits, leg.hip, leg.axes, foot, DOWN, 10.0 * TOLERANCE, large)
+    solve_damped(dh, leg.model.limits, leg.hip, leg.axes, foot, DOWN, 10.0 * TOLERANCE, ITERATIONS, large)
     np.testing.assert_allclose(large, small, atol=1e-9)

@@ -7,7 +7,7 @@ from robot_agent.kinematics import closed_form, damped, yaw_pitch
 from robot_agent.kinematics.inverse import ITERATIVE, TOLERANCE, YAW_PITCH, YAW_ROLL_PITCH
 
 
-def solve_leg(model, hip, hip_axes, foot, direction, previous):
+def solve_leg(model, hip, hip_axes, foot, direction, previous, tolerance=TOLERANCE, iterations=damped.ITERATIONS):
     """Joints (n,) and the distance left, m."""
     joints = None
     if model.closed_form == YAW_ROLL_PITCH:
@@ -16,14 +16,18 @@ def solve_leg(model, hip, hip_axes, foot, direction, previous):
         joints = yaw_pitch_pitch(model, hip_axes.T @ (foot - hip), previous)
     if joints is not None:
         return joints, 0.0
-    joints, left = damped_least_squares(model.dh, model.limits, hip, hip_axes, foot, direction, previous)
+    joints, left = damped_least_squares(
+        model.dh, model.limits, hip, hip_axes, foot, direction, previous, tolerance, iterations
+    )
     step = model.speed_limit * model.dt
     if model.closed_form == ITERATIVE and len(joints) > 3 and (np.abs(joints - previous) > step).any():
         box = np.column_stack(
             [np.maximum(model.limits[:, 0], previous - step), np.minimum(model.limits[:, 1], previous + step)]
         )
-        slower, missed = damped_least_squares(model.dh, box, hip, hip_axes, foot, direction, previous)
-        joints = joints if missed > TOLERANCE else slower
+        slower, missed = damped_least_squares(
+            model.dh, box, hip, hip_axes, foot, direction, previous, tolerance, iterations
+        )
+        joints = joints if missed > tolerance else slower
     return joints, left
 
 
@@ -108,12 +112,12 @@ def yaw_pitch_pitch(model, foot, previous):
     return min(postures, key=lambda posture: np.abs(posture - previous).max(), default=None)
 
 
-def damped_least_squares(dh, limits, hip, hip_axes, foot, direction, previous):
+def damped_least_squares(dh, limits, hip, hip_axes, foot, direction, previous, tolerance, iterations):
     n, joints = len(dh), previous.copy()
     reach = np.abs(dh[:, 1:3]).sum()
     best, best_left, start_left = previous.copy(), np.inf, np.inf
     stopped = np.zeros(n, dtype=bool)
-    for iteration in range(damped.ITERATIONS):
+    for iteration in range(iterations):
         origins, axes = frames(dh, hip, hip_axes, joints)
         error = foot - origins[-1]
         left = np.linalg.norm(error)
@@ -122,7 +126,7 @@ def damped_least_squares(dh, limits, hip, hip_axes, foot, direction, previous):
             start_left = left
         elif left < best_left:
             best, best_left = joints.copy(), left
-        if left < TOLERANCE and not glides:
+        if left < tolerance and not glides:
             break
         error = error * min(1.0, damped.LARGEST_ERROR * reach / left) if left > 0.0 else error
         jacobian = jacobian_of(origins, axes)
@@ -133,7 +137,7 @@ def damped_least_squares(dh, limits, hip, hip_axes, foot, direction, previous):
         step = free + weight * (jacobian.T @ np.linalg.solve(normal, error - jacobian @ free))
         wanted, joints = joints + step, np.clip(joints + step, limits[:, 0], limits[:, 1])
         stopped = wanted != joints
-    if start_left < TOLERANCE <= best_left:
+    if start_left < tolerance <= best_left:
         return previous.copy(), start_left
     return best, best_left
 

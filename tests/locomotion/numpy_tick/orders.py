@@ -3,12 +3,12 @@
 import numpy as np
 
 from numpy_tick.speed import speed_of
-from numpy_tick.walkspace import excursion, room
+from numpy_tick.walkspace import excursion, room, ways_left
 from robot_agent.locomotion import reasons
-from robot_agent.locomotion.body_velocity import HALVINGS, STILL
+from robot_agent.locomotion.body_velocity import HALVINGS, SPARE, STILL
 from robot_agent.locomotion.stepper import FREE_OVERRUN, LARGEST_OVERRUN
 
-STAND, SWING = 0, 1
+SWING = 1
 
 
 def clean_velocity(walk):
@@ -48,7 +48,7 @@ def follow_velocity(walk):
         walk.answer.reasons |= reasons.STRIDE
     gait.limited = share * walk.orders.velocity
     wanted = approached(walk, gait.limited, settings.largest_speed / settings.start_time)
-    gait.commanded += affordable(walk, wanted) * (wanted - gait.commanded)
+    gait.commanded = fitting(walk, wanted)
 
 
 def approached(walk, target, speed_up):
@@ -59,25 +59,24 @@ def approached(walk, target, speed_up):
     return gait.commanded + min(1.0, rate * walk.model.dt / gap if gap > 0.0 else 1.0) * (target - gait.commanded)
 
 
-def affordable(walk, wanted):
-    """The share of a change to a faster velocity that leaves all standing feet room until they lift."""
-    gait = walk.gait
-    if not gait.walking or speed_of(wanted) <= speed_of(gait.commanded):
-        return 1.0
-    due = (gait.leg_phase < 1.0 - gait.duty) & (walk.feet.lifted == 0)
-    time_left = np.where((walk.feet.mode == STAND) & ~due, (1.0 - gait.leg_phase) / gait.frequency, 0.0)
-    allowed = max(1.0, excursion(walk, gait.commanded, time_left)) + 1e-6
+def fitting(walk, wanted):
+    """As much of a change from braking to `wanted` as leaves every foot room until it lifts next."""
+    gait, ways = walk.gait, ways_left(walk)
+    if not gait.walking or excursion(walk, wanted, ways) <= 1.0 + SPARE:
+        return wanted
+    braked = approached(walk, np.zeros(3), 0.0)
+    allowed = max(1.0, excursion(walk, braked, ways)) + SPARE
 
     def fits(share):
-        return excursion(walk, gait.commanded + share * (wanted - gait.commanded), time_left) <= allowed
+        return excursion(walk, braked + share * (wanted - braked), ways) <= allowed
 
     if fits(1.0):
-        return 1.0
+        return wanted
     least, most = 0.0, 1.0
     for _ in range(HALVINGS - 1):
         middle = 0.5 * (least + most)
         least, most = (middle, most) if fits(middle) else (least, middle)
-    return least
+    return braked + least * (wanted - braked)
 
 
 def stride_share(walk, velocity):
