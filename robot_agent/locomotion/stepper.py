@@ -105,9 +105,12 @@ def start_or_stop(walk: Record) -> None:
 
 @kernel
 def begin_to_walk(walk: Record) -> None:
-    """Start the clock where the feet's places suit it; a leg whose swing has already begun waits for its next."""
+    """Start the clock where the feet's places suit it; a leg whose swing has already begun waits for its next.
+
+    A body that still leans as it did at the last stop goes on from there, for its pose follows the clock.
+    """
     gait, feet = walk.gait, walk.feet
-    restart_clock(walk, best_start(walk))
+    restart_clock(walk, gait.phase if walk.posing.fade > 0.0 else best_start(walk))
     for leg in range(walk.model.legs):
         phase = gait.leg_phase[leg]
         at_lift_off = phase < 1e-9 or phase > 1.0 - 1e-9

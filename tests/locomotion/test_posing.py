@@ -279,6 +279,35 @@ def test_a_robot_on_four_feet_leans_before_it_lifts_one(velocity):
     assert swings.sum(axis=1).max() == 1
 
 
+def test_a_walk_taken_up_again_before_the_body_is_upright_does_not_throw_it():
+    robot = load_robot("magneto")
+    walker = Walker(robot, robot.locomotion.model_copy(update={"feel_ground": False, "compensate_servos": False}), DT)
+    joints, before, fastest, margins = walker.begin_standing(), None, 0.0, []
+    for tick in range(900):
+        moving = not 400 <= tick < 700 or tick % 100 > 60
+        out = walker.step(
+            WalkInput(
+                stamp_ns=0,
+                velocity=np.array([0.03, 0.0, 0.0]) * moving,
+                parameters=GaitParameters(
+                    stamp_ns=0, virtual_stiffness=1000.0, stride_frequency=0.5, stride_height=0.03, confidence=1.0
+                ),
+                gait="wave",
+                stand=True,
+                joint_position=joints,
+                joint_torque=np.zeros_like(joints),
+                foot_contact=np.ones(4, dtype=np.bool_),
+                gravity_in_body=np.array([0.0, 0.0, -1.0]),
+            )
+        )
+        joints, place = out.joint_position, out.unposed_from_body.position
+        fastest = max(fastest, 0.0 if before is None else float(np.linalg.norm(place - before)) / DT)
+        before = place
+        margins.append(out.stability_margin)
+    assert fastest < 0.3
+    assert min(margins) > 0.005
+
+
 def test_levelling_makes_the_body_level_on_a_slope_that_posture_would_follow():
     ideal = Ideal()
     ideal.ground = rotation_from_rpy(0.0, -0.12, 0.0)

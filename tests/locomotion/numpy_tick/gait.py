@@ -33,7 +33,8 @@ def begin(walk):
     for candidate, cost in enumerate(costs):
         if cost < costs[best] - 1e-12:
             best = candidate
-    gait.phase, gait.duty, gait.offset = candidates[best] % 1.0, orders.duty, orders.offset
+    start = gait.phase if walk.posing.fade > 0.0 else candidates[best]
+    gait.phase, gait.duty, gait.offset = start % 1.0, orders.duty, orders.offset
     gait.leg_phase = (gait.phase + gait.offset) % 1.0
     at_lift_off = (gait.leg_phase < 1e-9) | (gait.leg_phase > 1.0 - 1e-9)
     walk.feet.lifted = (gait.leg_phase < 1.0 - gait.duty) & ~at_lift_off
