@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 SERIALS = 40
 """Few enough that now and then an order comes with one that was there before."""
-POSTURES = ("insectoid", "mammalian", "upside down", "")
+POSTURES = (*2 * ("insectoid", "mammalian"), "upside down", "")
 
 
 def random_leg_order(robot: RobotDescription, rng: np.random.Generator) -> LegOrder:

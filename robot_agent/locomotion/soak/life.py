@@ -90,7 +90,7 @@ def _live(robot: RobotDescription, rng: np.random.Generator, ticks: int, posture
     speed = np.tile([robot.servos[joint.servo].no_load_speed for joint in robot.joints], robot.leg_count)
     joints = rng.uniform(limits[:, 0], limits[:, 1])
     walker.reset(joints)
-    if rng.random() < 0.5:
+    if calm or rng.random() < 0.5:
         joints = walker.begin_standing()
     out: WalkOutput | None = None
     for tick in range(CALM_LIFE * ticks if calm else ticks):

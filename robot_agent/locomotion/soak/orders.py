@@ -92,10 +92,10 @@ class RandomOrders:
                 self._velocity = np.zeros(3)  # a walking robot lifts none
         if changes[7] or changes[8]:
             self._footholds = tuple(random_foothold(self._robot, rng) for _ in range(rng.choice([0, 1, 2, 4])))
-        if rng.random() < CHANGES:
+        if rng.random() < (3.0 if calm else 1.0) * CHANGES:
             self._posture = random_posture(rng)
-            if calm and rng.random() < 0.5:  # a robot that walks, poses or holds a leg does not change
-                self._velocity, self._posing, self._legs, self._stand = np.zeros(3), NO_POSING, (), True
+        if calm and rng.random() < 0.2 * CHANGES:  # a robot that walks, poses or holds a leg does not change
+            self._velocity, self._posing, self._legs, self._stand = np.zeros(3), NO_POSING, (), True
 
 
 def _parameters(frequency: Any, height: Any, stiffness: Any) -> GaitParameters:
