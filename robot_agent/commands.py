@@ -112,6 +112,9 @@ class CommandDesk:
             CommandName.SET_POSING: self._moving(self._motion.set_posing),
             CommandName.START_RECORDING: self._not_here,
             CommandName.STOP_RECORDING: self._not_here,
+            CommandName.START_CALIBRATION: self._not_here,
+            CommandName.SOLVE_CALIBRATION: self._not_here,
+            CommandName.END_CALIBRATION: self._not_here,
         }
 
     def answer(self, command: Command) -> Answer:
@@ -410,7 +413,7 @@ class CommandDesk:
         return self._footholds.place(command, self._situation.stamp_ns)
 
     def _not_here(self, command: Command) -> Answer:
-        return self._refuse(f"{command.command.value} is for the robot's recorder")
+        return self._refuse(f"{command.command.value} is for another process of the robot")
 
     def _stop_cruise(self, _: Command) -> Answer:
         self._cruise.stop()

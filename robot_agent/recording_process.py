@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from concurrent.futures import Future
-from concurrent.futures import TimeoutError as NoAnswerError
 from dataclasses import dataclass
 from datetime import datetime
 
 from robot_agent.recording import Recorder, RecordingWriter
 from robot_agent.recording.store import RecordingStore
+from robot_agent.waiting_orders import WaitingOrders
 from weaver_shared import topics
 from weaver_shared.bus import Bus
 from weaver_shared.clock import Clock
@@ -22,8 +21,6 @@ LEAST_FREE = 500_000_000
 """B on the disk below which nothing is recorded: the robot needs some to live."""
 
 TELL_NS = 1_000_000_000
-ANSWER_WITHIN = 2.5
-"""s; opening a file and an ear on the bus takes a part of one."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -57,14 +54,12 @@ class RecordingProcess:
         self._store = store
         self._clock = clock
         self._wall_time = wall_time
-        self._lock = threading.Lock()
-        self._woken = threading.Event()
-        self._orders: list[tuple[Command, Future[Answer]]] = []
+        self._orders = WaitingOrders()
         self._running: _Running | None = None
         self._reason = ""
         self._stamp_ns = 0
         self._told_ns = -TELL_NS
-        bus.answer_queries(robot_id, topics.RECORDER_COMMANDS, self._answer)
+        bus.answer_queries(robot_id, topics.RECORDER_COMMANDS, self._orders.ask)
         bus.answer_queries(robot_id, topics.RECORDING_PART, store.part)
         bus.announce(robot_id, "recorder")
         self._tell()
@@ -76,13 +71,9 @@ class RecordingProcess:
 
     def turn(self, wait: float = 0.0) -> None:
         """Carry out orders, write what was said; `wait` at most so many s for something to do."""
-        with self._lock:
-            orders, self._orders = self._orders, []
-            self._woken.clear()
-        for command, answer in orders:
-            answer.set_result(self._carry_out(command))
+        self._orders.carry_out(self._carry_out)
         if self._running is None:
-            self._woken.wait(wait)
+            self._orders.wait(wait)
         else:
             try:
                 self._running.recorder.turn(wait)
@@ -96,17 +87,6 @@ class RecordingProcess:
         """End the recording that runs, if any; its file is whole afterwards."""
         if self._running is not None:
             self._end("")
-
-    def _answer(self, command: Command) -> Answer:
-        """Called on the bus's threads."""
-        answer: Future[Answer] = Future()
-        with self._lock:
-            self._orders.append((command, answer))
-            self._woken.set()
-        try:
-            return answer.result(ANSWER_WITHIN)
-        except NoAnswerError:
-            return Answer(accepted=False, reason=f"the recorder did not get to it within {ANSWER_WITHIN:g} s")
 
     def _carry_out(self, command: Command) -> Answer:
         try:

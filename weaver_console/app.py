@@ -22,7 +22,7 @@ from weaver_console.access import COOKIE, VALID_S, Access
 from weaver_console.hub import Hub
 from weaver_console.mission_api import add_mission_api
 from weaver_console.page_session import PageSession
-from weaver_console.recordings import add_recordings
+from weaver_console.robot_files import add_robot_files
 from weaver_console.roster import describe
 from weaver_console.scene_page import scene_page
 from weaver_console.scene_proxy import carry
@@ -70,7 +70,7 @@ def create_app(hub: Hub, access: Access, *, folder: Path | None = None) -> FastA
     app.exception_handler(RequestValidationError)(_not_valid)
     _add_api(app, hub)
     add_mission_api(app, hub.missions)
-    add_recordings(app, hub.link)
+    add_robot_files(app, hub.link)
     _add_login(app, access)
     _add_sockets(app, hub, access)
     _add_pages(app, hub, folder)

@@ -34,13 +34,22 @@ WATCHED: tuple[Topic, ...] = (
     topics.LEASE,
     topics.MISSION,
     topics.RECORDING,
+    topics.CALIBRATION,
     topics.TRUTH,
 )
 """Topics whose newest values the console keeps; presence, heartbeat and events are handled on their own."""
 
-RECORDER_COMMANDS = (CommandName.START_RECORDING, CommandName.STOP_RECORDING)
-RECORDER_TIMEOUT = 3.0
-"""s; the recorder has a disk to wait for."""
+ELSEWHERE = {
+    CommandName.START_RECORDING: topics.RECORDER_COMMANDS,
+    CommandName.STOP_RECORDING: topics.RECORDER_COMMANDS,
+    CommandName.START_CALIBRATION: topics.CALIBRATOR_COMMANDS,
+    CommandName.SOLVE_CALIBRATION: topics.CALIBRATOR_COMMANDS,
+    CommandName.END_CALIBRATION: topics.CALIBRATOR_COMMANDS,
+}
+"""Commands that another process of the robot than the walking one carries out; they need no control of it."""
+
+ELSEWHERE_TIMEOUT = 3.0
+"""s; those have disks to wait for."""
 
 
 class Link:
@@ -75,8 +84,8 @@ class Link:
             return self._records.get(robot_id)
 
     def request(self, robot_id: str, command: Command, timeout: float) -> Answer:
-        if command.command in RECORDER_COMMANDS:
-            return self.bus.ask(robot_id, topics.RECORDER_COMMANDS, command, RECORDER_TIMEOUT)
+        if (query := ELSEWHERE.get(command.command)) is not None:
+            return self.bus.ask(robot_id, query, command, ELSEWHERE_TIMEOUT)
         return self.bus.request(robot_id, command, timeout)
 
     def teleoperate(self, robot_id: str, frame: TeleopFrame) -> None:

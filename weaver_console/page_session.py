@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from weaver_console import page_messages as p
 from weaver_console.command_desk import CommandDesk, Reply
 from weaver_console.feed import Feed
-from weaver_console.link import RECORDER_COMMANDS, Link
+from weaver_console.link import ELSEWHERE, Link
 from weaver_console.pace import Pace
 from weaver_console.plain import to_json
 from weaver_console.robot_record import RobotRecord
@@ -197,7 +197,7 @@ class PageSession:
         self.tell(reply.to_page(request_id))
 
     async def _ask(self, request: p.CommandRequest, robot: str) -> Reply:
-        if request.command is CommandName.STOP or request.command in RECORDER_COMMANDS:
+        if request.command is CommandName.STOP or request.command in ELSEWHERE:
             return await self._desk.send(self.operator, robot, request)
         async with self._lane:  # one after the other, so that they arrive in the order of their numbers
             return await self._desk.send(self.operator, robot, request)

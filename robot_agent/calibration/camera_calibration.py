@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +23,10 @@ LEAST_VIEWS = 5
 EYES = ("left", "right")
 
 
-def calibrate_cameras(session: Session, target: Target, model: Distortion) -> RigEstimate:
-    """Each eye alone first, then both in one batch. Raises InputError where too little was seen."""
+def calibrate_cameras(
+    session: Session, target: Target, model: Distortion, tell: Callable[[str], None] = lambda _: None
+) -> RigEstimate:
+    """Each eye alone first, then both in one batch; `tell` hears which. Raises InputError where too little was seen."""
     for eye in range(session.eyes):
         seen = len(session.seen_by(eye))
         if seen < LEAST_VIEWS:
@@ -32,9 +34,13 @@ def calibrate_cameras(session: Session, target: Target, model: Distortion) -> Ri
                 f"the {EYES[eye]} eye sees the target in {seen} of {session.pictures} pictures; at least "
                 f"{LEAST_VIEWS} are needed, 30 or more are good"
             )
-    lenses = [_alone(session, eye, target, model) for eye in range(session.eyes)]
+    lenses = []
+    for eye in range(session.eyes):
+        tell(f"lens of the {EYES[eye]} eye")
+        lenses.append(_alone(session, eye, target, model))
     if session.eyes == 1:
         return lenses[0]
+    tell("both eyes together")
     rig = Rig(
         models=(model,) * session.eyes,
         intrinsics=np.concatenate([lens.rig.intrinsics for lens in lenses]),

@@ -5,7 +5,13 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from robot_agent.command_line import calibrate_cameras, calibrate_check, calibrate_imu, calibrate_target
+from robot_agent.command_line import (
+    calibrate_cameras,
+    calibrate_check,
+    calibrate_guide,
+    calibrate_imu,
+    calibrate_target,
+)
 
 EXAMPLES = """examples:
   weaver calibrate target --page a3 --out target.pdf
@@ -65,6 +71,16 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument("--quiet", action="store_true", help="no progress bar")
     check.add_argument("--json", action="store_true", help="print one JSON object")
     check.set_defaults(run=calibrate_check.run)
+
+    guide = parts.add_parser("guide", help="wait for the console's page, which leads through calibrating the cameras")
+    guide.add_argument("--folder", type=Path, default=Path("calibrations"), help="where results go")
+    guide.add_argument(
+        "--recordings", type=Path, default=Path("recordings"), help="those that may be looked at instead"
+    )
+    guide.add_argument("--robot-id", default="sim-1", help="name of the robot on the bus")
+    guide.add_argument("--robot", default="weaver", help="robot description: a shipped name or a TOML file")
+    guide.add_argument("--connect", default="tcp/127.0.0.1:7447", help="bus endpoints to join, comma-separated")
+    guide.set_defaults(run=calibrate_guide.run)
     return parser
 
 

@@ -8,12 +8,12 @@ from datetime import datetime
 from pathlib import Path
 
 from robot_agent.recording.file_format import SUFFIX
+from robot_agent.recording.file_parts import file_part
 from robot_agent.recording.reader import open_recording
 from robot_agent.recording.span import recorded_span
 from weaver_shared.errors import InputError
 from weaver_shared.messages import PartRequest, RecordingEntry, RecordingPart
 
-LARGEST_PART = 4 * 1024 * 1024
 MOST_LISTED = 50
 _NAME = re.compile(rf"[A-Za-z0-9_-][A-Za-z0-9_.-]{{0,100}}{re.escape(SUFFIX)}")
 
@@ -49,17 +49,7 @@ class RecordingStore:
 
     def part(self, request: PartRequest) -> RecordingPart:
         """Some of a file's bytes; never raises."""
-        if not _NAME.fullmatch(request.name):
-            return _nothing(f"{request.name!r:.60} is not the name of a recording")
-        if request.offset < 0 or not 0 <= request.length <= LARGEST_PART:
-            return _nothing(f"a part begins at 0 or later and has up to {LARGEST_PART} B")
-        path = self.folder / request.name
-        try:
-            with path.open("rb") as stream:
-                stream.seek(request.offset)
-                return RecordingPart(data=stream.read(request.length), size=path.stat().st_size, reason="")
-        except OSError as error:
-            return _nothing(f"{request.name} can not be read: {error.strerror}")
+        return file_part(self.folder, _NAME, request)
 
     def _entry(self, path: Path) -> RecordingEntry | None:
         try:
@@ -81,7 +71,3 @@ def _described(path: Path, size: int) -> RecordingEntry | None:
     return RecordingEntry(
         name=path.name, started=about.started, seconds=seconds, size=size, pictures=about.pictures, whole=whole
     )
-
-
-def _nothing(reason: str) -> RecordingPart:
-    return RecordingPart(data=b"", size=0, reason=reason)

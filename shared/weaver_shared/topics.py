@@ -81,6 +81,7 @@ MOTION = _topic("state/motion", m.MotionOrders, 5.0, Priority.INTERACTIVE, Polic
 LEASE = _topic("state/lease", m.LeaseState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 MISSION = _topic("state/mission", m.MissionState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 RECORDING = _topic("state/recording", m.RecordingState, 1.0, Priority.DATA, Policy.RELIABLE)
+CALIBRATION = _topic("state/calibration", m.CalibrationState, 2.0, Priority.DATA, Policy.RELIABLE)
 PRESENCE = _topic("state/presence", m.Presence, 1.0, Priority.DATA, Policy.RELIABLE)
 EVENT = _topic("event", m.Event, 0.0, Priority.DATA, Policy.LOGGED)
 TELEOP = _topic("teleop", m.TeleopFrame, 20.0, Priority.REAL_TIME, Policy.LATEST)
@@ -104,6 +105,16 @@ COMMANDS = Query(key="cmd", question=m.Command, answer=m.Answer, priority=Priori
 RECORDER_COMMANDS = Query(
     key="cmd/recorder", question=m.Command, answer=m.Answer, priority=Priority.INTERACTIVE, refuse=_refused
 )
+CALIBRATOR_COMMANDS = Query(
+    key="cmd/calibrator", question=m.Command, answer=m.Answer, priority=Priority.INTERACTIVE, refuse=_refused
+)
+CALIBRATION_PART = Query(
+    key="calibration/part",
+    question=m.PartRequest,
+    answer=m.RecordingPart,
+    priority=Priority.BACKGROUND,
+    refuse=_no_part,
+)
 RECORDING_PART = Query(
     key="recording/part",
     question=m.PartRequest,
@@ -113,7 +124,13 @@ RECORDING_PART = Query(
 )
 
 
-QUERIES: tuple[Query[Any, Any], ...] = (COMMANDS, RECORDER_COMMANDS, RECORDING_PART)
+QUERIES: tuple[Query[Any, Any], ...] = (
+    COMMANDS,
+    RECORDER_COMMANDS,
+    RECORDING_PART,
+    CALIBRATOR_COMMANDS,
+    CALIBRATION_PART,
+)
 
 
 def robot_key(robot_id: str, key: str) -> str:

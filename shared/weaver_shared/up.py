@@ -57,6 +57,9 @@ def _start(supervisor: Supervisor, options: argparse.Namespace, *, rendezvous: s
     supervisor.add("vision", ["weaver_shared.command_line", "robot", "--role", "vision", *known, *name], nice=2)
     recorder = ["--robot-id", options.robot_id, "--connect", f"{rendezvous},{robot}", "--folder", options.recordings]
     supervisor.add("the recorder", ["weaver_shared.command_line", "record", *recorder, *name], nice=2)
+    calibrator = ["guide", "--robot-id", options.robot_id, "--connect", f"{rendezvous},{robot}"]
+    folders = ["--recordings", options.recordings, "--folder", options.calibrations]
+    supervisor.add("the calibrator", ["weaver_shared.command_line", "calibrate", *calibrator, *folders, *name], nice=10)
     if options.console:
         console = ["--host", HOST, "--port", str(options.port), "--listen", rendezvous, "--connect", robot]
         supervisor.add("the console", ["weaver_shared.command_line", "console", *console], nice=-5)
@@ -114,6 +117,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--seed", type=int, default=1, help="seed of the world and of all sensor noise")
     parser.add_argument("--port", type=int, default=8080, help="TCP port of the page")
     parser.add_argument("--recordings", default="recordings", help="folder for recordings started from the page")
+    parser.add_argument("--calibrations", default="calibrations", help="folder for calibrations made on the page")
     parser.add_argument("--no-browser", dest="browser", action="store_false", help="do not open a browser")
     parser.add_argument("--no-console", dest="console", action="store_false", help="start the robot alone")
     parser.add_argument("--connect", default=f"tcp/{HOST}:{RENDEZVOUS}", help="console to join with --no-console")

@@ -6,96 +6,27 @@ import json
 import shutil
 import tomllib
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
-from target_scenes import GRID, IMU
+from own_recordings import SIZE
 
-from robot_agent.calibration.kalibr_files import write_camchain, write_imu, write_target
+from robot_agent.calibration.kalibr_files import write_camchain
 from robot_agent.calibration.pictures import open_pictures
 from robot_agent.calibration.rig import Rig
 from robot_agent.command_line import calibrate
 from robot_agent.recording import RecordingWriter
 from robot_agent.vision.camchain import read_chain
 from sim_agent.command_line import study_calibration
-from sim_agent.targets.motion import HandHeldMotion
-from sim_agent.targets.recording import RigTruth, TargetRecording, draw_rig
-from weaver_shared import topics
+from sim_agent.targets.recording import RigTruth
 from weaver_shared.clock import SimulatedClock
 from weaver_shared.command_line import main
-from weaver_shared.messages import Proprioception, StereoFrame
 from weaver_shared.robots import load_robot
 from weaver_shared.transforms import Pose, rotation_exp
 
 BOARDS = Path(__file__).resolve().parents[2].parent / "shared" / "data" / "calibration" / "stereo_chessboard"
-SIZE = (320, 240)
-
-
-@pytest.fixture(scope="module")
-def truth() -> RigTruth:
-    return draw_rig(np.random.default_rng(11), "radtan", SIZE)
-
-
-@pytest.fixture(scope="module")
-def recording(truth: RigTruth, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """6 s of rendered pairs at 8 Hz as an ASL folder, with the target's, the IMU's and the true cameras' files."""
-    folder = tmp_path_factory.mktemp("recording")
-    generator = np.random.default_rng(11)
-    motion = HandHeldMotion(GRID, 0.55, generator)
-    made = TargetRecording(truth, GRID, motion, IMU, generator, seconds=6.0, rate=8.0)
-    for eye in range(2):
-        (folder / "mav0" / f"cam{eye}" / "data").mkdir(parents=True)
-    for stamp, pictures in made:
-        for eye, picture in enumerate(pictures):
-            cv2.imwrite(str(folder / "mav0" / f"cam{eye}" / "data" / f"{stamp}.png"), picture)
-    (folder / "mav0" / "imu0").mkdir()
-    rows = np.concatenate([made.inertia.angular_velocity_in_imu, made.inertia.specific_force_in_imu], axis=1)
-    lines = [
-        f"{stamp}," + ",".join(f"{x:.9g}" for x in row) for stamp, row in zip(made.inertia.stamp_ns, rows, strict=True)
-    ]
-    (folder / "mav0" / "imu0" / "data.csv").write_text("#timestamp\n" + "\n".join(lines) + "\n")
-    write_target(GRID, folder / "target.yaml")
-    write_imu(IMU, folder / "imu.yaml")
-    write_camchain(truth.rig, folder / "truth.yaml")
-    return folder
-
-
-@pytest.fixture(scope="module")
-def own_recording(recording: Path) -> Path:
-    """The same as a robot's own recording."""
-    root = recording / "mav0"
-    writer = RecordingWriter(
-        recording / "own.mcap", robot_id="sim-1", robot=load_robot(), clock=SimulatedClock(), started="now"
-    )
-    samples = open_pictures(recording).inertia
-    assert samples is not None
-    joints = np.zeros(load_robot().joint_count)
-    writer.write(
-        topics.PROPRIOCEPTION.key,
-        Proprioception(
-            stamp_ns=int(samples.stamp_ns[-1]),
-            joint_position=joints,
-            joint_velocity=joints,
-            joint_torque=joints,
-            joint_valid=joints == 0.0,
-            joint_temperature=joints,
-            foot_contact=np.ones(6, dtype=np.bool_),
-            # A robot tells means over the interval before a stamp: of steady 200 Hz, those in whose middle we sampled.
-            imu=replace(samples, stamp_ns=samples.stamp_ns + 2_500_000),
-            battery_voltage=25.0,
-            supply_current=1.0,
-            motor_power=20.0,
-        ),
-    )
-    for sequence, path in enumerate(sorted((root / "cam0" / "data").glob("*.png"))):
-        left, right = (cv2.imread(str(root / eye / "data" / path.name), 0) for eye in ("cam0", "cam1"))
-        frame = StereoFrame(stamp_ns=int(path.stem), sequence=sequence, left=left, right=right)
-        writer.write(topics.STEREO.key, frame)
-    writer.close()
-    return recording / "own.mcap"
 
 
 Run = Callable[..., tuple[int, dict[str, object], str]]

@@ -171,7 +171,7 @@ def test_a_file_is_handed_out_in_parts_and_nothing_else_is(desk: Desk, tmp_path:
     assert part("old.mcap", 100) == (data[100:1100], len(data), "")
     assert part("old.mcap", len(data)) == (b"", len(data), "")
     for name in ("../secret.mcap", "/etc/passwd", "", ".mcap", "old.mcap/../../secret.mcap"):
-        assert "is not the name of a recording" in part(name)[2]
+        assert "is not the name of a file here" in part(name)[2]
     assert "can not be read" in part("none.mcap")[2]
     assert "a part begins at 0" in part("old.mcap", -1)[2]
     assert "a part begins at 0" in part("old.mcap", 0, 1 << 40)[2]

@@ -1,7 +1,8 @@
 /** The page: top bar, views on the left, panels on the right. */
-import { useEffect } from "react";
+import { Suspense, lazy, useEffect } from "react";
 import { AdaptationPanel } from "./adaptation/AdaptationPanel";
 import { BodyPanel } from "./body/BodyPanel";
+import { CALIBRATION, useAddress } from "./calibration/address";
 import { startSession } from "./console/session";
 import { useConsole } from "./console/store";
 import { EventLog } from "./events/EventLog";
@@ -16,34 +17,49 @@ import { useStopKeys } from "./stop/useStopKeys";
 import { TeleopPanel } from "./teleop/TeleopPanel";
 import { TopBar } from "./topbar/TopBar";
 
+const CalibrationPage = lazy(() => import("./calibration/CalibrationPage"));
+
 export function App() {
   useEffect(startSession, []);
   useStopKeys();
   useUndoKeys();
   const connected = useConsole((state) => state.connection === "open");
+  const address = useAddress();
   return (
     <div className="page" data-connected={connected}>
       <TopBar />
-      <main className="work">
-        <div className="work-views">
-          <Views />
-          <EventLog />
-        </div>
-        <div className="work-panels">
-          <div className="panel-column">
-            <MissionPanel />
-            <RobotPanel />
-            <TeleopPanel />
-            <BodyPanel />
-          </div>
-          <div className="panel-column">
-            <AdaptationPanel />
-            <StatusPanel />
-            <RecordingPanel />
-          </div>
-        </div>
-      </main>
+      {address === CALIBRATION ? (
+        <Suspense>
+          <CalibrationPage />
+        </Suspense>
+      ) : (
+        <Work />
+      )}
       <Notices />
     </div>
+  );
+}
+
+function Work() {
+  return (
+    <main className="work">
+      <div className="work-views">
+        <Views />
+        <EventLog />
+      </div>
+      <div className="work-panels">
+        <div className="panel-column">
+          <MissionPanel />
+          <RobotPanel />
+          <TeleopPanel />
+          <BodyPanel />
+        </div>
+        <div className="panel-column">
+          <AdaptationPanel />
+          <StatusPanel />
+          <RecordingPanel />
+        </div>
+      </div>
+    </main>
   );
 }

@@ -1,5 +1,9 @@
 """Everything that crosses a process border, as frozen dataclasses. Arrays are row-major; units are SI unless named."""
 
+from weaver_shared.messages.calibration import (
+    CalibrationState,
+    CalibrationWish,
+)
 from weaver_shared.messages.commands import (
     Answer,
     Command,
@@ -54,6 +58,8 @@ from weaver_shared.messages.telemetry import (
 __all__ = [
     "AdaptationReport",
     "Answer",
+    "CalibrationState",
+    "CalibrationWish",
     "CameraPicture",
     "Command",
     "CommandName",

@@ -35,6 +35,9 @@ class CommandName(StrEnum):
     SET_POSING = "set_posing"  # name: automatic, levelling; value 1 or 0
     START_RECORDING = "start_recording"  # value 1: with the stereo pictures, 0: without; the recorder's, needs no lease
     STOP_RECORDING = "stop_recording"  # the recorder's, needs no lease
+    START_CALIBRATION = "start_calibration"  # name: TARGET, or TARGET from RECORDING; the calibrator's, needs no lease
+    SOLVE_CALIBRATION = "solve_calibration"  # name of the lens model: radtan, equidistant; likewise
+    END_CALIBRATION = "end_calibration"  # likewise
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -24,6 +24,7 @@ const LIMITS: readonly (readonly [prefix: string, limits: Limits])[] = [
   ["tele/cam", { stale: 2, lost: 8 }],
   ["tele/map", { stale: Infinity, lost: Infinity }],
   ["tele/", { stale: 1, lost: 5 }],
+  ["state/calibration", { stale: Infinity, lost: Infinity }],
   ["state/recording", { stale: 4, lost: 10 }],
   ["state/", { stale: 1, lost: 5 }],
   ["truth/", { stale: 0.5, lost: 3 }],

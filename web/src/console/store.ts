@@ -2,6 +2,7 @@
 import { create } from "zustand";
 import type {
   AdaptationReport,
+  CalibrationState,
   GaitState,
   Health,
   LeaseState,
@@ -28,6 +29,7 @@ export interface Topics {
   "state/lease": LeaseState;
   "state/mission": MissionState;
   "state/recording": RecordingState;
+  "state/calibration": CalibrationState;
   "truth/state": TruthState;
   [health: `tele/health/${string}`]: Health;
 }

@@ -40,6 +40,9 @@ export const COMMAND_NAMES = [
   "set_posing",
   "start_recording",
   "stop_recording",
+  "start_calibration",
+  "solve_calibration",
+  "end_calibration",
 ] as const;
 export type CommandName = (typeof COMMAND_NAMES)[number];
 
@@ -192,6 +195,30 @@ export interface EventMessage {
   severity: Severity;
   source: string;
   text: string;
+}
+
+export interface CalibrationWish {
+  what: string;
+  met: boolean;
+  advice: string;
+}
+
+export interface CalibrationState {
+  phase: "idle" | "looking" | "solving" | "solved" | "failed";
+  source: string;
+  target: string;
+  pictures: number;
+  views: number;
+  seen: number[];
+  cover: number[][][];
+  wishes: CalibrationWish[];
+  advice: string;
+  step: string;
+  usable: boolean;
+  verdict: string;
+  results: string[];
+  files: string[];
+  folder: string;
 }
 
 export interface RecordingEntry {

@@ -50,6 +50,9 @@ export function RecordingPanel() {
             <Switch label="Record camera pictures" checked={pictures} disabled={running} onChange={setPictures} />
           </div>
           <Remarks state={state} />
+          <a className="link-button" href="#calibration">
+            Calibrate the cameras
+          </a>
           {robot !== null && <RecordingList robot={robot} entries={state.entries} />}
         </>
       )}

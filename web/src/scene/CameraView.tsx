@@ -8,6 +8,8 @@ import { type Stamped, useConsole } from "../console/store";
 import { useFreshness, useKeys } from "../console/useLatest";
 
 const PREFIX = "tele/cam/";
+/** The calibration page's own picture. */
+const DRAWN_UPON = "tele/cam/calibration";
 
 interface CameraPicture {
   jpeg: string;
@@ -15,7 +17,7 @@ interface CameraPicture {
 
 export function CameraView() {
   const { cameras, camera } = usePreferences();
-  const keys = useKeys(PREFIX);
+  const keys = useKeys(PREFIX).filter((name) => name !== DRAWN_UPON);
   const key = keys.find((candidate) => candidate === camera) ?? keys[0];
   useEffect(() => {
     send({ type: "watch", cameras });

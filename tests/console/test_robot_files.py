@@ -6,7 +6,7 @@ import pytest
 from conftest import Console, Page
 from wire_robot import WireRobot
 
-from weaver_console import recordings
+from weaver_console import robot_files
 from weaver_shared import topics
 from weaver_shared.bus import MemoryBus
 from weaver_shared.messages import Answer, Command, CommandName, PartRequest, RecordingPart, RecordingState
@@ -72,7 +72,7 @@ def test_without_a_recorder_the_page_is_told_so(console: Console, robot: WireRob
 def test_a_recording_is_downloaded_whole(
     console: Console, robot: WireRobot, recorder: WireRecorder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(recordings, "PART_BYTES", 999)
+    monkeypatch.setattr(robot_files, "PART_BYTES", 999)
     robot.step()
     reply = console.http.get(f"/api/recordings/{robot.robot_id}/a.mcap")
     assert reply.content == CONTENT

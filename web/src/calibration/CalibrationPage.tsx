@@ -1,0 +1,65 @@
+/** Calibrating the robot's cameras, guided: pictures with the target drawn, what is missing, solving, the report. */
+import { useEffect } from "react";
+import { spokenAge } from "../console/freshness";
+import { send } from "../console/outbox";
+import { type Stamped, useConsole } from "../console/store";
+import { useFreshness, useLatest } from "../console/useLatest";
+import type { CalibrationState } from "../protocol/messages";
+import { GuidePanel } from "./GuidePanel";
+import { ResultPanel } from "./ResultPanel";
+import { TargetPanel } from "./TargetPanel";
+
+const STATE = "state/calibration";
+const PICTURE = "tele/cam/calibration";
+
+export default function CalibrationPage() {
+  const state = useLatest(STATE);
+  const robot = useConsole((page) => page.selected);
+  const connected = useConsole((page) => page.connection === "open");
+  useEffect(() => {
+    send({ type: "watch", cameras: true });
+  }, [connected, robot]);
+  return (
+    <main className="calibration">
+      <nav className="calibration-head">
+        <h2>Calibrate the cameras</h2>
+        <a href="#">Back to the robot</a>
+      </nav>
+      {state === undefined || robot === null ? (
+        <p className="view-empty">
+          {robot === null ? "Choose a robot first." : "This robot has no calibrator. Start it with weaver calibrate guide."}
+        </p>
+      ) : (
+        <div className="calibration-parts">
+          <div className="panel-column">
+            <Pictures state={state} />
+            {state.verdict !== "" && <ResultPanel robot={robot} state={state} />}
+          </div>
+          <div className="panel-column">
+            <TargetPanel state={state} />
+            {state.phase !== "idle" && <GuidePanel state={state} />}
+          </div>
+        </div>
+      )}
+    </main>
+  );
+}
+
+function Pictures({ state }: { state: CalibrationState }) {
+  const picture = useConsole((page) => (page.values[PICTURE] as Stamped<{ jpeg: string }> | undefined)?.value);
+  const { level, age } = useFreshness(PICTURE);
+  if (picture === undefined || state.phase === "idle") {
+    return <p className="view-empty calibration-eyes">Start looking to see both eyes with the corners they find.</p>;
+  }
+  const seen = state.seen.map((count, eye) => `${count} in the ${eye === 0 ? "left" : "right"} eye`).join(", ");
+  return (
+    <figure className="calibration-eyes">
+      <img src={`data:image/jpeg;base64,${picture.jpeg}`} alt={`Left and right eye; corners found: ${seen}`} />
+      <figcaption>
+        Corners found: <span className="number">{seen}</span>
+        {state.source !== "cameras" && `, in ${state.source}`}
+        {level !== "live" && state.phase === "looking" && `; ${spokenAge(age)} old`}
+      </figcaption>
+    </figure>
+  );
+}
