@@ -63,7 +63,7 @@ class HardwareBody:
             )
             for bus in wiring.config.buses
         ]
-        self._exchange = CyclicExchange(self._buses, clock, answer_margin=self._settings.answer_margin)
+        self.exchange = CyclicExchange(self._buses, clock, answer_margin=self._settings.answer_margin)
         self.watch = JointWatch(wiring, self._settings, 1.0 / CONTROL_RATE)
         self._touch = FootTouch(self.robot)
         self._start = SoftStart(self._settings)
@@ -85,8 +85,8 @@ class HardwareBody:
         for bus in self._buses:
             for joint in bus.joints:
                 Preparation(bus.port, self._place(int(joint))).run()
-        self._exchange.read()
-        self._torque_on = bool((self._exchange.block["torque_on"][self._exchange.answered] == 1).all())
+        self.exchange.read()
+        self._torque_on = bool((self.exchange.block["torque_on"][self.exchange.answered] == 1).all())
         self._judge(self._clock.now_ns())
         if self._torque_on:
             self._start.begin(self.watch.position, holding=True)
@@ -102,7 +102,7 @@ class HardwareBody:
         if now_ns >= self._retry_ns:
             self._retry(now_ns)
         self._switched += 1
-        self._exchange.read()
+        self.exchange.read()
         self._judge(now_ns)
         self._samples = self._imu.take(self._clock.now_ns()) if self._imu is not None else ImuBatch.empty()
         if self._power is not None and (reading := self._power.take(self._clock.now_ns())) is not None:
@@ -175,7 +175,7 @@ class HardwareBody:
                 source.close()
 
     def _judge(self, now_ns: int) -> None:
-        self.watch.judge(self._exchange, now_ns, torque_ordered=self._torque_on, switching=self._switched)
+        self.watch.judge(self.exchange, now_ns, torque_ordered=self._torque_on, switching=self._switched)
         texts = self.troubles()
         for text in texts:
             if text not in self._told:
@@ -198,25 +198,25 @@ class HardwareBody:
             self._send(position, torque)
             self._feed_watchdogs(self._everybody)
         else:
-            self._exchange.tell(r.BUS_WATCHDOG.address, np.zeros(self._all.size, dtype=np.int8), self._everybody)
+            self.exchange.tell(r.BUS_WATCHDOG.address, np.zeros(self._all.size, dtype=np.int8), self._everybody)
         flags = np.full(self._all.size, on, dtype=np.uint8)
-        self._exchange.tell(r.TORQUE_ENABLE.address, flags, self._everybody)
+        self.exchange.tell(r.TORQUE_ENABLE.address, flags, self._everybody)
 
     def _go_on(self, stopped: NDArray[np.bool_]) -> None:
         """After their watchdogs stopped servos: from where they stand, slowly, with the torque that bears the robot."""
         self._start.begin(self.watch.position, holding=True)
-        self._exchange.tell(r.BUS_WATCHDOG.address, np.zeros(self._all.size, dtype=np.int8), stopped)
+        self.exchange.tell(r.BUS_WATCHDOG.address, np.zeros(self._all.size, dtype=np.int8), stopped)
         self._feed_watchdogs(stopped)
 
     def _feed_watchdogs(self, which: NDArray[np.bool_]) -> None:
         units = round(self._settings.watchdog / r.WATCHDOG_UNIT)
-        self._exchange.tell(r.BUS_WATCHDOG.address, np.full(self._all.size, units, dtype=np.int8), which)
+        self.exchange.tell(r.BUS_WATCHDOG.address, np.full(self._all.size, units, dtype=np.int8), which)
 
     def _send(self, position: NDArray[np.float64], torque: NDArray[np.float64]) -> None:
         goals = np.zeros(self._all.size, dtype=WRITTEN_TYPE)
         goals["position"] = self._wiring.counts(position, self._all)
         goals["current"] = self._wiring.current(torque, self._all)
-        self._exchange.write(goals)
+        self.exchange.write(goals)
 
     def _retry(self, now_ns: int) -> None:
         """Look again for servos that are lost and for buses that are down."""

@@ -18,6 +18,7 @@ class FirstOrderJoints:
     """Shafts that close a fixed part of their distance to the goal in each time, no faster than a servo can.
 
     `load` (A) is what holding still takes; a servo that may not draw that much gives way. A stuck joint stays.
+    With `most_steps` time goes in longer steps where a busy computer can not keep up, instead of ever slower.
     """
 
     def __init__(
@@ -27,6 +28,7 @@ class FirstOrderJoints:
         start: Array | None = None,
         time_constant: float = 0.03,
         highest_speed: float = 4.7,
+        most_steps: int = 1_000_000,
     ) -> None:
         self.servos = servos
         self.position = np.zeros(len(servos)) if start is None else np.array(start, dtype=np.float64)
@@ -34,6 +36,7 @@ class FirstOrderJoints:
         self.stuck = np.zeros(len(servos), dtype=np.bool_)
         self._time_constant = time_constant
         self._highest_speed = highest_speed
+        self._most_steps = most_steps
         self._now_ns: int | None = None
         for servo, position in zip(servos, self.position, strict=True):
             servo.start_at(position)
@@ -42,8 +45,9 @@ class FirstOrderJoints:
         """Move to this time in steps short enough for the servos' watchdogs."""
         if self._now_ns is None:
             self._now_ns = now_ns
+        step_ns = max(STEP_NS, (now_ns - self._now_ns) // self._most_steps)
         while self._now_ns < now_ns:
-            until_ns = min(self._now_ns + STEP_NS, now_ns)
+            until_ns = min(self._now_ns + step_ns, now_ns)
             for servo in self.servos:
                 servo.elapse(until_ns)
             self._step((until_ns - self._now_ns) * 1e-9)

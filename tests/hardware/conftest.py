@@ -67,7 +67,7 @@ def body(
     # Simple joints: a simulator could not keep real time on a busy computer.
     wiring = Wiring(twin_wiring(robot, tmp_path, settings=PATIENT), robot)
     shafts = wiring.shaft(sitting_joints(robot))
-    servos = TwinServos(wiring, lambda servos: FirstOrderJoints(servos, start=shafts))
+    servos = TwinServos(wiring, lambda servos: FirstOrderJoints(servos, start=shafts, most_steps=4))
     with TwinTerminals(servos, paced=False), closing(open_body(wiring, kind=KIND)) as real:
         real.prepare()
         yield real

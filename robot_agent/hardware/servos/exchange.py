@@ -26,7 +26,8 @@ class BusExchange:
         """False: the port was lost, and nothing is asked until it is opened again."""
         self._ids = list(ids)
         self._baud = baud
-        self._silent = 0.0
+        self.least_duration = self.duration = 0.0
+        """s that question and answers take on the wire at the least, and with what the servos may wait in between."""
         self.asked = np.arange(len(ids))
         """Which of the bus's servos are asked; those that are lost are not waited for."""
         self.group = GroupAnswer([], READ_TYPE.itemsize)
@@ -43,13 +44,9 @@ class BusExchange:
         self.group = GroupAnswer(ids, READ_TYPE.itemsize)
         block = READ_ADDRESS.to_bytes(2, "little") + READ_TYPE.itemsize.to_bytes(2, "little")
         self._request = encode(BROADCAST, Instruction.SYNC_READ, block + bytes(ids))
-        answers = len(ids) * (STATUS_OVERHEAD + READ_TYPE.itemsize + 2)
-        self._silent = (len(self._request) + answers) * 10.0 / self._baud + len(ids) * _TURN_ROUND
-
-    @property
-    def duration(self) -> float:
-        """s that question and answers take on the wire."""
-        return self._silent
+        answers = len(ids) * (STATUS_OVERHEAD + READ_TYPE.itemsize)
+        self.least_duration = (len(self._request) + answers) * 10.0 / self._baud
+        self.duration = self.least_duration + len(ids) * (_TURN_ROUND + 2 * 10.0 / self._baud)
 
     def ask(self) -> None:
         self.group.begin()
@@ -105,8 +102,11 @@ class CyclicExchange:
         begin_ns = self._clock.now_ns()
         for bus in self.buses:
             bus.ask()
-        patience = max((bus.duration for bus in self.buses if bus.up), default=0.0) + self._margin
+        up = [bus for bus in self.buses if bus.up]
+        patience = max((bus.duration for bus in up), default=0.0) + self._margin
         deadline_ns = begin_ns + round(patience * 1e9)
+        # Nobody can be done before: to wake for each servo's answer would cost more than to read them.
+        self._clock.sleep_until(begin_ns + round(min((bus.least_duration for bus in up), default=0.0) * 1e9))
         while (waiting := [bus for bus in self.buses if bus.waiting]) and self._clock.now_ns() < deadline_ns:
             self._clock.wait_for_answer([bus.port for bus in waiting], deadline_ns)
             for bus in waiting:
