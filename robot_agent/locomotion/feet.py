@@ -9,6 +9,7 @@ import numpy as np
 from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.reasons import FOOTHOLD
 from robot_agent.locomotion.stride import foot_velocity, stride_of, swing_nodes, swing_point
+from robot_agent.locomotion.trip import CLEAR, STRUCK, lead_around, notice_trip
 from robot_agent.locomotion.walk_state import Array, Record
 from robot_agent.locomotion.walkspace import radius_towards
 
@@ -106,6 +107,8 @@ def lift(walk: Record, leg: int) -> None:
     feet.aimed[leg] = walk.orders.targeted[leg]
     feet.lifted[leg] = True
     feet.reached[leg] = 0.0
+    feet.tripped[leg] = CLEAR
+    feet.detour[leg, :] = 0.0
 
 
 @kernel
@@ -121,7 +124,9 @@ def move_swinging(walk: Record) -> None:
             continue
         progress = gait.leg_phase[leg] / (1.0 - gait.duty)
         touches = feel_ground and senses.contact[leg]
-        if feet.mode[leg] == SWING and touches and earliest < progress:
+        if feet.mode[leg] == SWING and feel_ground:
+            notice_trip(walk, leg, progress)
+        if feet.mode[leg] == SWING and touches and earliest < progress and feet.tripped[leg] != STRUCK:
             feet.mode[leg] = STAND
         elif feet.mode[leg] == SWING and (progress < 1.0 or not feel_ground):
             _swing(walk, leg, progress)
@@ -160,7 +165,12 @@ def _swing(walk: Record, leg: int, progress: float) -> None:
         feet.lift_off[leg], foothold, up, feet.swing_height[leg], ground, speed, half_time,
         walk.settings.foothold.along_normal != 0, outward, first, second,
     )  # fmt: skip
-    swing_point(progress, first, second, feet.place[leg])
+    path = np.empty(3)
+    swing_point(progress, first, second, path)
+    if feet.tripped[leg]:
+        lead_around(walk, leg, path, foothold)
+    else:
+        feet.place[leg, :] = path
 
 
 @kernel

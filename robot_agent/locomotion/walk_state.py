@@ -114,6 +114,8 @@ FEET = np.dtype(
         ("foothold", F, (LEGS, 3)),  # m, where the swing ends
         ("aimed", N, (LEGS,)),  # whether this swing ends at `target`
         ("reached", F, (LEGS,)),  # m below the expected ground
+        ("tripped", N, (LEGS,)),  # in this swing: see `trip`
+        ("detour", F, (LEGS, 3)),  # m, from the swing's path to where the foot is led around what it struck
         ("stance", F, (LEGS, 3)),  # middle of every stance, shifted for the inclination
         ("in_air", np.uint8, (LEGS,)),  # a bool; numba has none in records
     ]

@@ -6,6 +6,7 @@ from numpy_tick.stride import bezier, ground_velocity, stride_of, swing_nodes
 from numpy_tick.walkspace import room
 from robot_agent.locomotion import reasons
 from robot_agent.locomotion.feet import FOOTHOLD_SPEED
+from robot_agent.locomotion.trip import BACK_SPEED, FREED, STRUCK
 from weaver_shared.transforms import rotation_exp
 
 STAND, SWING, REACH, HANG = range(4)
@@ -31,7 +32,10 @@ def move_swinging(walk):
             continue
         progress = gait.leg_phase[leg] / (1.0 - gait.duty)
         touches, swinging = feels and walk.senses.contact[leg], feet.mode[leg] == SWING
-        early = swinging and progress <= walk.settings.foothold.earliest_contact
+        if swinging and feels:
+            notice_trip(walk, leg, progress)
+        early = progress <= walk.settings.foothold.earliest_contact or feet.tripped[leg] == STRUCK
+        early = early and swinging
         if touches and not early:
             feet.mode[leg] = STAND
         elif swinging and (progress < 1.0 or not feels):
@@ -68,7 +72,40 @@ def swing(walk, leg, progress):
         settings.along_normal,
         outward,
     )
-    feet.place[leg] = bezier(first, 2.0 * progress) if progress < 0.5 else bezier(second, 2.0 * progress - 1.0)
+    path = bezier(first, 2.0 * progress) if progress < 0.5 else bezier(second, 2.0 * progress - 1.0)
+    if feet.tripped[leg]:
+        lead_around(walk, leg, path, foothold)
+    else:
+        feet.place[leg] = path
+
+
+def notice_trip(walk, leg, progress):
+    feet, settings, touches = walk.feet, walk.settings.foothold, walk.senses.contact[leg] != 0
+    if feet.tripped[leg] == STRUCK and (not touches or progress >= settings.trip_to):
+        feet.tripped[leg] = FREED
+    elif feet.tripped[leg] != STRUCK and touches and settings.trip_from < progress <= settings.earliest_contact:
+        feet.tripped[leg] = STRUCK
+
+
+def lead_around(walk, leg, path, foothold):
+    """Back from what was struck and up along it, or back to the path."""
+    feet, settings, dt = walk.feet, walk.settings.foothold, walk.model.dt
+    if feet.tripped[leg] == STRUCK:
+        place = feet.place[leg].copy()
+        onwards = (foothold - feet.lift_off[leg])[:2]
+        onwards = onwards / max(np.linalg.norm(onwards), 1e-9)
+        away = walk.senses.unposed_feet[leg][:2] - settings.trip_retreat * onwards - place[:2]
+        place[:2] += away * min(1.0, BACK_SPEED * dt / max(np.linalg.norm(away), 1e-9))
+        highest = max(feet.stance[leg][2] + walk.model.headroom[leg], place[2])
+        place[2] = min(place[2] + settings.trip_rise * dt, highest)
+        feet.detour[leg] = place - path
+    else:
+        flat, lower = feet.detour[leg][:2], settings.touchdown_speed * dt
+        far = np.linalg.norm(flat)
+        flat = flat * (1.0 - min(1.0, BACK_SPEED * dt / max(far, 1e-9)))
+        height = feet.detour[leg][2]
+        feet.detour[leg] = [*flat, height - np.clip(height, -lower, lower)]
+    feet.place[leg] = path + feet.detour[leg]
 
 
 def drawn_foothold(walk, leg, foothold):

@@ -8,6 +8,7 @@ from numpy_tick.stride import stride_of
 from robot_agent.locomotion import reasons
 from robot_agent.locomotion.gait_clock import GLIDE
 from robot_agent.locomotion.stepper import BRAKING_STRIDE, LEANT, PACE_TIME, SLOWNESS_TOLD, STOP_SLEW
+from robot_agent.locomotion.trip import CLEAR
 
 STAND, SWING, REACH, HANG = range(4)
 
@@ -116,4 +117,5 @@ def lift_feet(walk):
             load.offset[leg] = 0.0
             feet.mode[leg], feet.lifted[leg] = SWING, True
             feet.swing_height[leg], feet.reached[leg] = min(gait.height, walk.model.headroom[leg]), 0.0
+            feet.tripped[leg], feet.detour[leg] = CLEAR, 0.0
             feet.planned[leg], feet.aimed[leg] = False, walk.orders.targeted[leg]
