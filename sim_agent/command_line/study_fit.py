@@ -16,7 +16,7 @@ from sim_agent.fit_study.best import BestGait, best_gait
 from sim_agent.fit_study.fragment import write_fragment
 from sim_agent.fit_study.grounds import Ground, true_indices
 from sim_agent.fit_study.least_squares import adapted, fit
-from sim_agent.fit_study.plan import Trial, grounds_named, trials
+from sim_agent.fit_study.plan import Trial, grounds_named, trials, widened
 from sim_agent.fit_study.plots import draw_all
 from sim_agent.fit_study.report import best_table, polynomial_table, write_report
 from sim_agent.fit_study.store import TrialStore
@@ -36,14 +36,15 @@ def main(arguments: list[str]) -> int:
         raise InputError("--seeds and --jobs are whole numbers from 1")
     robot, seeds = load_robot(options.robot), range(options.seed, options.seed + count)
     grounds = grounds_named(options.grounds, quick=options.quick)
-    planned = trials(options.robot, robot.adaptation, grounds, seeds, quick=options.quick)
+    swept = widened(robot)
+    planned = trials(options.robot, swept, grounds, seeds, quick=options.quick)
     store = TrialStore(Path(options.out))
     results = _results(planned, options, store)
     bests = [_best(ground, robot, results) for ground in grounds]
     if not any(best.passed for best in bests):
         raise InputError("no gait came over any of these grounds; there is nothing to fit")
-    fitted = fit(bests, robot.adaptation)
-    settings = (robot.adaptation, adapted(robot.adaptation, fitted))
+    fitted = fit(bests, swept)
+    settings = (robot.adaptation, adapted(swept, fitted))
     fragment = store.folder / "adaptation.toml"
     write_fragment(fragment, settings[1], options.robot)
     pictures = draw_all(bests, results, *settings, store.folder)
@@ -96,7 +97,7 @@ def _parser() -> argparse.ArgumentParser:
         "frequencies (Hz) and stride heights (m), take the best by cost of transport, sway and success, and fit the "
         "adaptation's polynomials (ICRA'17 eqs. 9-11). Finished trials are kept and not walked again.",
     )
-    parser.add_argument("--quick", action="store_true", help="five grounds, 60 trials: a few minutes on two cores")
+    parser.add_argument("--quick", action="store_true", help="five grounds, 120 trials: a few minutes on two cores")
     parser.add_argument("--grounds", default="", help="comma-separated names (default: all, or the quick form's)")
     parser.add_argument("--robot", default="weaver", help="a shipped robot or a TOML file")
     parser.add_argument("--seeds", type=int, help="walks of every set on every ground (default 2, quick 1)")

@@ -11,8 +11,11 @@ import numpy as np
 from sim_agent.fit_study.grounds import GROUNDS, QUICK, Ground
 from weaver_shared.config.adaptation import AdaptationConfig, Bounds
 from weaver_shared.errors import InputError
+from weaver_shared.robots import RobotDescription
 
-LEVELS = {"full": (3, 4, 3), "quick": (2, 3, 2)}
+FASTER, LOWER = 1.5, 0.6
+"""How far beyond the highest frequency and the lowest stride height in use the study looks."""
+LEVELS = {"full": (4, 5, 4), "quick": (2, 4, 3)}
 """How many values of virtual stiffness, stride frequency and stride height are tried."""
 
 
@@ -40,10 +43,25 @@ class Trial:
         return asdict(self)
 
 
+def widened(robot: RobotDescription) -> AdaptationConfig:
+    """The robot's adaptation with the bounds between which the study looks, within what its gait can do."""
+    used, gait = robot.adaptation, robot.locomotion
+    frequency = min(FASTER * used.stride_frequency.upper, gait.frequency_bounds[1])
+    height = max(LOWER * used.stride_height.lower, gait.height_bounds[0])
+    return used.model_copy(
+        update={
+            "stride_frequency": used.stride_frequency.model_copy(
+                update={"upper": max(frequency, used.stride_frequency.upper)}
+            ),
+            "stride_height": used.stride_height.model_copy(update={"lower": min(height, used.stride_height.lower)}),
+        }
+    )
+
+
 def trials(
     robot: str, adaptation: AdaptationConfig, grounds: list[Ground], seeds: range, *, quick: bool
 ) -> list[Trial]:
-    """The grid between the adaptation's bounds; stiffness in equal ratios, the others in equal steps."""
+    """The grid between the bounds of `adaptation`; stiffness in equal ratios, the others in equal steps."""
     stiff, frequent, high = LEVELS["quick" if quick else "full"]
     grid = list(
         product(

@@ -14,7 +14,7 @@ from sim_agent.fit_study.best import GOOD, best_gait, score
 from sim_agent.fit_study.fragment import write_fragment
 from sim_agent.fit_study.grounds import GROUNDS, measured_section, true_indices
 from sim_agent.fit_study.least_squares import adapted, fit
-from sim_agent.fit_study.plan import grounds_named, trials
+from sim_agent.fit_study.plan import grounds_named, trials, widened
 from sim_agent.fit_study.store import TrialStore
 from sim_agent.fit_study.trial import TrialResult, walk_trial
 from weaver_shared.config.adaptation import AdaptationConfig
@@ -22,12 +22,14 @@ from weaver_shared.errors import InputError
 from weaver_shared.robots import load_robot
 from weaver_shared.robots.catalogue import robot_of
 
-USED = AdaptationConfig()
 ROBOT = load_robot()
-TRUE = AdaptationConfig(
-    stiffness_polynomial=(2000.0, -1500.0, 0.0, 0.0),
-    frequency_polynomial=(0.9, -0.6, 0.0),
-    height_polynomial=(0.06, 0.05, 0.03),
+USED = widened(ROBOT)
+TRUE = USED.model_copy(
+    update={
+        "stiffness_polynomial": (2000.0, -1500.0, 0.0, 0.0),
+        "frequency_polynomial": (0.9, -0.6, 0.0),
+        "height_polynomial": (0.06, 0.05, 0.03),
+    }
 )
 INDICES = {"level": (0.0, 0.0), "sand": (0.3, 0.15), "stones": (0.4, 0.45), "rubble": (0.6, 0.3), "broken": (0.8, 0.5)}
 
@@ -60,6 +62,16 @@ def bests_of(quick=False):
     ]
 
 
+def test_the_study_looks_beyond_the_bounds_in_use():
+    used = AdaptationConfig()
+    assert USED.stride_frequency.upper == 1.5 * used.stride_frequency.upper
+    assert USED.stride_height.lower < used.stride_height.lower
+    tried = trials("weaver", USED, grounds_named("", quick=True), range(1), quick=True)
+    assert len(tried) == 120
+    assert max(one.stride_frequency for one in tried) == 1.5
+    assert min(one.stride_height for one in tried) == 0.03
+
+
 def test_the_studied_grounds_span_roughness_and_step_height():
     found = {ground.name: true_indices(ground.world(ROBOT)) for ground in GROUNDS}
     assert found["level"] == pytest.approx((0.0, 0.0), abs=1e-6)
@@ -79,7 +91,7 @@ def test_seeds_differ_in_the_start_alone():
 
 def test_a_level_ground_is_walked_and_judged():
     flat = trials("weaver", USED, grounds_named("level", quick=True), range(1, 2), quick=True)
-    quick_one = next(one for one in flat if one.stride_frequency == 1.0 and one.virtual_stiffness == 2500.0)
+    quick_one = next(one for one in flat if one.parameters == (2500.0, 1.1, 0.03))
     result = walk_trial(quick_one)
     begin, end = measured_section()
     assert result.outcome == "reached"
@@ -92,7 +104,7 @@ def test_a_level_ground_is_walked_and_judged():
 def test_the_best_gait_is_the_mean_of_the_good_sets():
     (_, _, _, rubble, _) = bests_of()
     wanted = gait_for(*INDICES["rubble"], TRUE)
-    assert rubble.passed == rubble.sets == 36
+    assert rubble.passed == rubble.sets == 80
     assert rubble.parameters[1] == pytest.approx(wanted["stride_frequency"], abs=0.06)
     assert rubble.parameters[2] == pytest.approx(wanted["stride_height"], abs=0.012)
     assert rubble.fastest[1] == USED.stride_frequency.upper
@@ -180,7 +192,7 @@ def test_an_interrupted_study_goes_on_and_reports(tmp_path, monkeypatch, capsys)
     capsys.readouterr()
     assert study_fit.main(arguments) == 0
     report = json.loads(capsys.readouterr().out)
-    assert report["trials"] == len(walked) + len(rest) == 60
+    assert report["trials"] == len(walked) + len(rest) == 120
     assert not {trial.name for trial in rest} & set(walked)
     assert [one["name"] for one in report["polynomials"]] == ["virtual_stiffness", "stride_frequency", "stride_height"]
     assert (tmp_path / "report.html").read_text().count("data:image/png;base64,") == 2
