@@ -28,7 +28,7 @@ export function RisingAndPosture() {
         </NativeSelect>
         {robot?.packs && (
           <CommandButton name="sit" size="xs" variant="default" onPress={() => void command("sit", { name: "pack" })}>
-            Sit and pack
+            Pack the legs
           </CommandButton>
         )}
         {(robot?.postures ?? []).map((name) => (
