@@ -38,6 +38,7 @@ def walking(product: Any, listen: Callable[..., Any]) -> Any:
     assert operator.send(CommandName.SET_MISSION, waypoints=there_and_back).accepted
     listener.wait_until(lambda _: operator.send(CommandName.START_MISSION).accepted, 30.0, "the mission does not start")
     listener.wait_until(lambda newest: newest["tele/state"].velocity_command[0] > 0.0, 20.0, "it does not walk")
+    listener.wait_until(lambda newest: newest["hb"].session, 10.0, "its heart is not heard")
     yield listener
     operator.send(CommandName.PAUSE_MISSION)
     operator.send(CommandName.RELEASE_CONTROL)
