@@ -28,6 +28,8 @@ LIMIT_MARGIN = 0.05
 """rad kept from every joint limit."""
 ITERATIONS = 8
 """For one place; a leg that has not got there by then is at its limits, and gets there by chance if at all."""
+FIRST_ITERATIONS = 60
+"""For a ray's beginning, which is searched from farther off."""
 USED = 0.9
 """Of the reach; beyond, legs are nearly stretched and their feet slow."""
 LARGEST_TURN = 0.5
@@ -124,7 +126,7 @@ def begin_ray(
     """Reach for a ray's `begin` (3,) from a guess in `joints` (n,); False where that is beyond the leg's reach."""
     guess = joints.copy()
     progress[FAR], progress[STEP], progress[HALVED] = 0.0, RADIUS_STEP * np.abs(dh[:, 1:3]).sum(), 0.0
-    return reaches(dh, limits, closed_form, hip, hip_axes, begin, guess, joints)
+    return reaches(dh, limits, closed_form, hip, hip_axes, begin, FIRST_ITERATIONS, guess, joints)
 
 
 @kernel
@@ -137,7 +139,7 @@ def extend_ray(
     while USED * progress[FAR] < largest:
         for k in range(3):
             foot[k] = begin[k] + (progress[FAR] + progress[STEP]) * along[k]
-        reached = reaches(dh, limits, closed_form, hip, hip_axes, foot, joints, found)
+        reached = reaches(dh, limits, closed_form, hip, hip_axes, foot, ITERATIONS, joints, found)
         if not reached or turned(joints, found) > LARGEST_TURN:
             progress[STEP] *= 0.5
             progress[HALVED] += 1.0
@@ -149,13 +151,14 @@ def extend_ray(
 
 @kernel
 def reaches(
-    dh: Array, limits: Array, closed_form: int, hip: Array, hip_axes: Array, foot: Array, guess: Array, joints: Array
-) -> bool:
+    dh: Array, limits: Array, closed_form: int, hip: Array, hip_axes: Array, foot: Array, iterations: int,
+    guess: Array, joints: Array,
+) -> bool:  # fmt: skip
     """Whether a leg reaches a `foot` (3,) in body; `joints` (n,) with which it does, found from a `guess` (n,)."""
     down = np.array([0.0, 0.0, -1.0])
     spare = REACHED * np.abs(dh[:, 1:3]).sum()
     return bool(
-        solve_leg_to(dh, limits, closed_form, hip, hip_axes, foot, down, spare, ITERATIONS, guess, joints) <= spare
+        solve_leg_to(dh, limits, closed_form, hip, hip_axes, foot, down, spare, iterations, guess, joints) <= spare
     )
 
 

@@ -10,7 +10,15 @@ from robot_agent.locomotion.feet import FOOTHOLD_SPEED, REACH, STAND, SWING
 from robot_agent.locomotion.gait_clock import GLIDE
 from robot_agent.locomotion.walk_state import BEARINGS, LAYERS
 from robot_agent.locomotion.walkspace_renewal import STALE
-from robot_agent.locomotion.workspace import HALVINGS, ITERATIONS, LARGEST_TURN, RADIUS_STEP, REACHED, USED
+from robot_agent.locomotion.workspace import (
+    FIRST_ITERATIONS,
+    HALVINGS,
+    ITERATIONS,
+    LARGEST_TURN,
+    RADIUS_STEP,
+    REACHED,
+    USED,
+)
 
 
 def room(walk, leg, x, y):
@@ -89,7 +97,7 @@ def search_ray(walk):
     if not space.ray_begun:
         aim_ray(walk)
         space.ray_begun = 1
-        joints, left = reached(walk, space.ray_begin, space.ray_joints)
+        joints, left = reached(walk, space.ray_begin, space.ray_joints, FIRST_ITERATIONS)
         space.ray_joints, ends = joints, left > REACHED * model.reach
     while not ends:
         far, step, halved = space.ray_progress
@@ -106,14 +114,14 @@ def search_ray(walk):
         end_ray(walk)
 
 
-def reached(walk, foot, guess):
+def reached(walk, foot, guess, iterations=ITERATIONS):
     """Joints (n,) of the leg under search, at whatever speed, and the distance left, m."""
     model, leg = walk.model, walk.space.leg
     chain = SimpleNamespace(
         dh=model.dh, limits=model.safe_limits, closed_form=model.closed_form, speed_limit=np.inf, dt=1.0
     )
     down, content = np.array([0.0, 0.0, -1.0]), REACHED * model.reach
-    return solve_leg(chain, model.hips[leg], model.hip_axes[leg], foot, down, guess, content, ITERATIONS)
+    return solve_leg(chain, model.hips[leg], model.hip_axes[leg], foot, down, guess, content, iterations)
 
 
 def aim_ray(walk):
