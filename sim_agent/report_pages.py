@@ -6,6 +6,7 @@ import base64
 import html
 from pathlib import Path
 
+from sim_agent.markdown import row
 from weaver_shared.errors import InputError
 
 Table = list[tuple[str, ...]]
@@ -23,13 +24,18 @@ STYLE = (
 
 
 def write_pages(
-    folder: Path, title: str, sections: list[Section], pictures: list[Picture], notes: tuple[str, ...]
+    folder: Path,
+    title: str,
+    sections: list[Section],
+    pictures: list[Picture],
+    notes: tuple[str, ...],
+    about_notes: str = "How to read this",
 ) -> list[Path]:
     """Write report.md and report.html into `folder`. Raises InputError when that can not be done."""
     markdown, page = folder / "report.md", folder / "report.html"
     try:
-        markdown.write_text(_markdown(title, sections, pictures, notes), encoding="utf-8")
-        page.write_text(_html(title, sections, pictures, notes), encoding="utf-8")
+        markdown.write_text(_markdown(title, sections, pictures, notes, about_notes), encoding="utf-8")
+        page.write_text(_html(title, sections, pictures, notes, about_notes), encoding="utf-8")
     except OSError as error:
         raise InputError(f"the report can not be written to {folder}: {error.strerror}") from error
     return [markdown, page]
@@ -43,16 +49,20 @@ def in_columns(table: Table) -> str:
     )
 
 
-def _markdown(title: str, sections: list[Section], pictures: list[Picture], notes: tuple[str, ...]) -> str:
+def _markdown(
+    title: str, sections: list[Section], pictures: list[Picture], notes: tuple[str, ...], about_notes: str
+) -> str:
     lines = [f"# {title}", ""]
     for heading, (head, *rows) in sections:
-        lines += [f"## {heading}", "", _row(head), _row(("---",) * len(head)), *map(_row, rows), ""]
+        lines += [f"## {heading}", "", row(head), row(("---",) * len(head)), *map(row, rows), ""]
     for path, caption in pictures:
         lines += [f"![{caption}]({path.name})", "", caption, ""]
-    return "\n".join([*lines, "## How to read this", "", *(f"- {note}" for note in notes), ""])
+    return "\n".join([*lines, f"## {about_notes}", "", *(f"- {note}" for note in notes), ""])
 
 
-def _html(title: str, sections: list[Section], pictures: list[Picture], notes: tuple[str, ...]) -> str:
+def _html(
+    title: str, sections: list[Section], pictures: list[Picture], notes: tuple[str, ...], about_notes: str
+) -> str:
     body = [f"<h1>{html.escape(title)}</h1>"]
     for heading, (head, *rows) in sections:
         body.append(f"<h2>{html.escape(heading)}</h2><table><thead>{_cells(head, 'th')}</thead><tbody>")
@@ -64,13 +74,13 @@ def _html(title: str, sections: list[Section], pictures: list[Picture], notes: t
             f'<figure><img alt="{caption}" src="data:image/png;base64,{data}">'
             f"<figcaption>{caption}</figcaption></figure>"
         )
-    body.append("<h2>How to read this</h2><ul>" + "".join(f"<li>{html.escape(note)}</li>" for note in notes) + "</ul>")
+    body.append(
+        f"<h2>{html.escape(about_notes)}</h2><ul>"
+        + "".join(f"<li>{html.escape(note)}</li>" for note in notes)
+        + "</ul>"
+    )
     start = f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(title)}</title>'
     return f"{start}<style>{STYLE}</style></head><body>{''.join(body)}</body></html>\n"
-
-
-def _row(cells: tuple[str, ...]) -> str:
-    return "| " + " | ".join(cells) + " |"
 
 
 def _cells(cells: tuple[str, ...], tag: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable
 from typing import Protocol
 
 import numpy as np
@@ -45,6 +46,11 @@ class DirectLine:
         self.plugged = False
 
 
+def _records(record: Callable[[int, np.ndarray, np.ndarray], bytes], batch: ImuBatch) -> list[bytes]:
+    samples = zip(batch.stamp_ns, batch.specific_force_in_imu, batch.angular_velocity_in_imu, strict=True)
+    return [record(int(stamp_ns), force, rate) for stamp_ns, force, rate in samples]
+
+
 class EmulatedGx3:
     """Sends a record for each sample once it was told to; its orientation is that of its own start."""
 
@@ -63,13 +69,7 @@ class EmulatedGx3:
         return answer
 
     def records(self, batch: ImuBatch) -> list[bytes]:
-        return [
-            self.record(int(stamp_ns), force, rate)
-            for stamp_ns, force, rate in zip(
-                batch.stamp_ns, batch.specific_force_in_imu, batch.angular_velocity_in_imu, strict=True
-            )
-            if self.streaming
-        ]
+        return _records(self.record, batch) if self.streaming else []
 
     def record(self, stamp_ns: int, force: np.ndarray, rate: np.ndarray) -> bytes:
         """One record of m/s^2 and rad/s in our axes."""
@@ -96,13 +96,7 @@ class EmulatedGx5:
         return answer
 
     def records(self, batch: ImuBatch) -> list[bytes]:
-        return [
-            self.record(int(stamp_ns), force, rate)
-            for stamp_ns, force, rate in zip(
-                batch.stamp_ns, batch.specific_force_in_imu, batch.angular_velocity_in_imu, strict=True
-            )
-            if self.streaming
-        ]
+        return _records(self.record, batch) if self.streaming else []
 
     def record(self, stamp_ns: int, force: np.ndarray, rate: np.ndarray) -> bytes:
         acceleration = struct.pack(">3f", *(Z_DOWN.T @ force / STANDARD_GRAVITY))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from sim_agent.bullet_study.measure import Measured
 from sim_agent.bullet_study.points import Point
-from weaver_shared.errors import InputError
+from sim_agent.study_folder import made_folder
 
 VERSION = 1
 
@@ -16,11 +16,7 @@ class PointStore:
     """Figures by their point, in one file of a folder."""
 
     def __init__(self, folder: Path) -> None:
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise InputError(f"{folder} can not be made a folder: {error.strerror}") from error
-        self.folder = folder
+        self.folder = made_folder(folder)
         self._file = folder / "points.jsonl"
         self._known = self._read()
 

@@ -7,7 +7,6 @@ import json
 import multiprocessing
 import sys
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +20,8 @@ from sim_agent.bullet_study.reasons import reasons
 from sim_agent.bullet_study.report import sections, write_report
 from sim_agent.bullet_study.store import PointStore
 from sim_agent.bullet_study.tables import bipod_faster
+from sim_agent.json_figures import without_nan
+from sim_agent.report_pages import in_columns
 from weaver_shared.errors import InputError
 
 SHORTEST, LONGEST = 0.5, 600.0  # s
@@ -39,11 +40,7 @@ def main(arguments: list[str]) -> int:
         print(json.dumps(_as_json(measured, written), allow_nan=False))
         return 0
     for title, table in sections(measured):
-        widths = [max(len(row[column]) for row in table) for column in range(len(table[0]))]
-        print(title)
-        for row in table:
-            print("  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)).rstrip())
-        print()
+        print(title, in_columns(table), sep="\n", end="\n\n")
     print(*(f"- {text}" for text in reasons(measured)), sep="\n")
     print("report:", ", ".join(str(path) for path in written))
     return 0
@@ -65,7 +62,7 @@ def _measured(points: list[Point], store: PointStore, jobs: int) -> list[Measure
 
 
 def _as_json(measured: list[Measured], written: list[Path]) -> dict[str, Any]:
-    result: dict[str, Any] = _finite(
+    result: dict[str, Any] = without_nan(
         {
             "paper_table_4": [
                 {"robot": robot, "gait": gait, "stance_air": row.stance_air, "walk_air": row.walk_air,
@@ -79,15 +76,6 @@ def _as_json(measured: list[Measured], written: list[Path]) -> dict[str, Any]:
         }
     )  # fmt: skip
     return result
-
-
-def _finite(value: Any) -> Any:
-    """JSON has no NaN: what is not known becomes null."""
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not isfinite(value) else value
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import sys
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 from tqdm import tqdm
 
@@ -21,6 +19,7 @@ from sim_agent.fit_study.plots import draw_all
 from sim_agent.fit_study.report import best_table, polynomial_table, write_report
 from sim_agent.fit_study.store import TrialStore
 from sim_agent.fit_study.trial import TrialResult, walk_trial
+from sim_agent.json_figures import without_nan
 from sim_agent.report_pages import in_columns
 from sim_agent.testbed_study.cluster import walk_all
 from weaver_shared.errors import InputError
@@ -56,7 +55,7 @@ def main(arguments: list[str]) -> int:
             "polynomials": [asdict(one) for one in fitted],
             "written": [str(path) for path in written],
         }
-        print(json.dumps(_finite(report), allow_nan=False))
+        print(json.dumps(without_nan(report), allow_nan=False))
         return 0
     for table in (best_table(bests), polynomial_table(fitted, robot.adaptation)):
         print(in_columns(table), end="\n\n")
@@ -79,15 +78,6 @@ def _results(planned: list[Trial], options: argparse.Namespace, store: TrialStor
 def _best(ground: Ground, robot: RobotDescription, results: list[TrialResult]) -> BestGait:
     here = [result for result in results if result.trial.ground == ground.name]
     return best_gait(ground.name, true_indices(ground.world(robot)), here)
-
-
-def _finite(value: Any) -> Any:
-    """JSON has no NaN: what is not known becomes null."""
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _parser() -> argparse.ArgumentParser:

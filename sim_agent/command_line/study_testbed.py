@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any
 
 from tqdm import tqdm
 
+from sim_agent.json_figures import without_nan
 from sim_agent.report_pages import in_columns
 from sim_agent.testbed_study.cluster import walk_all
 from sim_agent.testbed_study.figures import StudyFigures, study_figures
@@ -41,7 +41,7 @@ def main(arguments: list[str]) -> int:
     constant = records[-1].plan.parameters or {}
     written = write_report(store.folder, figures, draw_all(records, world, mass, store.folder), constant)
     if options.json:
-        print(json.dumps(_finite(_as_json(figures, records)), allow_nan=False))
+        print(json.dumps(without_nan(_as_json(figures, records)), allow_nan=False))
         return 0
     for table in (overall_table(figures), segment_table(figures)):
         print(in_columns(table), end="\n\n")
@@ -77,15 +77,6 @@ def _walked(
 
 def _as_json(figures: StudyFigures, records: list[WalkRecord]) -> dict[str, Any]:
     return {**asdict(figures), "walks": [outcome_of(record) for record in records]}
-
-
-def _finite(value: Any) -> Any:
-    """JSON has no NaN: what is not known becomes null."""
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _parser() -> argparse.ArgumentParser:

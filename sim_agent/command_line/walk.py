@@ -17,6 +17,7 @@ from robot_agent.adaptation import safe_gait
 from robot_agent.loops import CONTROL_RATE
 from robot_agent.mapping.files import MapSnapshot, load_map, save_map
 from robot_agent.recording import Recorder, RecordingWriter
+from sim_agent.json_figures import without_nan
 from sim_agent.lock_step import LockStep
 from sim_agent.mission import begin_mission
 from sim_agent.run_log import RunLog
@@ -30,7 +31,7 @@ def main(arguments: list[str]) -> int:
     options = parser().parse_args(arguments)
     figures = walk(options)
     if options.json:
-        print(json.dumps(_finite(figures)))
+        print(json.dumps(without_nan(figures)))
     else:
         _print(figures)
     return 0 if figures["reached"] else 1
@@ -126,18 +127,9 @@ def _goal(text: str) -> Waypoint:
     return Waypoint(x=x, y=y)
 
 
-def _finite(value: Any) -> Any:
-    """JSON has no NaN: what is not known becomes null."""
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
-
-
 def _print(figures: dict[str, Any]) -> None:
     for key, value in figures.items():
-        print(f"{key}: {json.dumps(_finite(value))}")
+        print(f"{key}: {json.dumps(without_nan(value))}")
 
 
 def parser() -> argparse.ArgumentParser:

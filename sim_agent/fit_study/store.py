@@ -10,7 +10,7 @@ from pyarrow import parquet
 
 from sim_agent.fit_study.plan import Trial
 from sim_agent.fit_study.trial import TrialResult
-from weaver_shared.errors import InputError
+from sim_agent.study_folder import made_folder
 
 KEY, VERSION = b"weaver.fit_study", b"1"
 PLANNED = [field.name for field in fields(Trial)]
@@ -20,11 +20,7 @@ class TrialStore:
     """Results by the name of their trial, in trials.parquet of a folder."""
 
     def __init__(self, folder: Path) -> None:
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise InputError(f"{folder} can not be made a folder: {error.strerror}") from error
-        self.folder = folder
+        self.folder = made_folder(folder)
         self._file = folder / "trials.parquet"
         self._known = {result.trial.name: result for result in self._read()}
 

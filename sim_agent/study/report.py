@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from sim_agent.study.markdown import number, row, word
+from sim_agent.markdown import number, row, word
 from sim_agent.study.result import Result
 
 HEADER = (

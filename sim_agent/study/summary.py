@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from itertools import groupby
 
-from sim_agent.study.markdown import number, row, word
+from sim_agent.markdown import number, row, word
 from sim_agent.study.result import Result
 
 LEVEL = (

@@ -9,9 +9,9 @@ import numpy as np
 import pyarrow as pa
 from pyarrow import parquet
 
+from sim_agent.study_folder import made_folder
 from sim_agent.testbed_study.plan import PlannedWalk
 from sim_agent.testbed_study.walk import COLUMNS, WalkRecord, outcome_of
-from weaver_shared.errors import InputError
 
 VERSION = 2
 KEY = b"weaver.testbed_study"
@@ -21,11 +21,7 @@ class RecordStore:
     """Records in a folder, by the name of their walk."""
 
     def __init__(self, folder: Path) -> None:
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise InputError(f"{folder} can not be made a folder: {error.strerror}") from error
-        self.folder = folder
+        self.folder = made_folder(folder)
 
     def save(self, record: WalkRecord) -> None:
         """Whole or not at all: a file that an interruption leaves half written does not count."""

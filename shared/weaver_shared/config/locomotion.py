@@ -49,8 +49,10 @@ class FootholdConfig(BaseModel):
 
     touchdown_speed: Positive = 0.08  # m/s downwards at the planned end of a swing and while reaching further
     reach_down: Positive = 0.07  # m below the expected ground before the foot gives up
-    earliest_contact: Fraction = 0.45  # of the swing; before that a contact is the foot leaving or brushing
-    trip_from: Fraction = 0.25  # of the swing; a contact from here to `earliest_contact` is something struck
+    earliest_contact: Fraction = 0.45  # of the swing, from where on a contact is the ground
+    trip_from: Fraction = (
+        0.25  # of the swing; a contact from here to `earliest_contact` is something struck, before it the foot leaving
+    )
     trip_to: Fraction = 0.8  # of the swing, up to which a foot that has struck something is led around it
     trip_rise: Positive = 0.25  # m/s, upwards along it
     trip_retreat: Positive = 0.008  # m, back from it
