@@ -36,6 +36,8 @@ PATTERNS: dict[str, tuple[tuple[float, float], ...]] = {
 
 STAND_SECONDS = 30.0
 SLOWEST = 0.02  # m/s; a robot that makes less way is stuck
+HELD_SECONDS, HELD_WITHIN = 60.0, 0.15
+"""A robot that stays this long (s) within this distance (m) is stuck as well."""
 
 
 class StuckError(WeaverError):
@@ -58,6 +60,7 @@ class DriftRun:
     world: str
     seed: int
     seconds: float  # simulated
+    stuck: str  # why the robot did not come to the end; empty when it did. The errors are of the way it made.
     with_contacts: DriftErrors  # of the odometry that led the walk
     without_contacts: DriftErrors  # on the same pictures and inertia
 
@@ -74,7 +77,7 @@ def pattern_of(world: str, metres: float | None) -> tuple[Waypoint, ...]:
 
 
 def walk_pattern(world: str, seed: int, metres: float | None = None) -> DriftRun:
-    """Raises StuckError when the robot does not reach the last waypoint."""
+    """A robot that gets stuck is judged by the way it made, and the run says so."""
     robot = load_robot()
     run = LockStep(robot, make_world(world, seed), seed)
     estimates: list[OdometryEstimate] = []
@@ -96,14 +99,19 @@ def walk_pattern(world: str, seed: int, metres: float | None = None) -> DriftRun
             alone.append(estimate)
 
     run.on_picture = look_again
+    stuck = ""
+    begin = run.clock.now_ns()
     try:
-        seconds = walk_waypoints(run, waypoints, estimates, truth)
+        walk_waypoints(run, waypoints, estimates, truth)
+    except StuckError as why:
+        stuck = str(why)
     finally:
         run.close()
     return DriftRun(
         world=world,
         seed=seed,
-        seconds=seconds,
+        seconds=(run.clock.now_ns() - begin) * 1e-9,
+        stuck=stuck,
         with_contacts=_judge(estimates, truth),
         without_contacts=_judge(alone, truth),
     )
@@ -132,10 +140,20 @@ def walk_waypoints(
     _must(run.operator.send(CommandName.START_MISSION))
     begin = run.clock.now_ns()
     longest = np.linalg.norm(np.diff([(0.0, 0.0), *((w.x, w.y) for w in waypoints)], axis=0), axis=1).sum() / SLOWEST
+    place, left = truth[-1].position_in_world, run.clock.now_ns()
     for _ in range(round(float(longest) * CONTROL_RATE)):
         step()
-        if run.walk.desk.mission(run.clock.now_ns()).phase == "done":
-            return (run.clock.now_ns() - begin) * 1e-9
+        now_ns = run.clock.now_ns()
+        mission = run.walk.desk.mission(now_ns)
+        if mission.phase == "done":
+            return (now_ns - begin) * 1e-9
+        if np.linalg.norm(truth[-1].position_in_world - place) > HELD_WITHIN:
+            place, left = truth[-1].position_in_world, now_ns
+        elif now_ns - left > HELD_SECONDS * 1e9:
+            where = ", ".join(f"{metres:.2f}" for metres in place[:2])
+            raise StuckError(
+                f"the robot stayed {HELD_SECONDS:.0f} s at ({where}) m, {mission.distance_left:.2f} m before its end"
+            )
     raise StuckError(f"the robot did not reach its last waypoint within {longest:.0f} simulated seconds")
 
 

@@ -30,14 +30,13 @@ def main(arguments: list[str]) -> int:
         return 0
     for world, figures in report["worlds"].items():
         low, high = figures["nees_band"]
-        for run in figures["runs"]:
-            print(f"{world:8s} seed {run['seed']}: drift {run['with_contacts']['drift_percent']:.3f} %")
         alone = figures["without_contacts"]
         print(f"{world:8s} without contacts: drift {alone['drift_percent']:.3f} %, NEES {alone['nees']:.1f}")
         print(
             f"{world:8s} drift {figures['drift_percent']:.3f} % (worst {figures['worst_drift_percent']:.3f}), "
             f"final error {figures['final_error']:.4f} m, ATE {figures['ate_m']:.4f} m, "
-            f"NEES {figures['nees']:.1f} (95 % band {low:.1f} to {high:.1f})"
+            f"NEES {figures['nees']:.1f} (95 % band {low:.1f} to {high:.1f}), "
+            f"{figures['reached']} of {len(figures['runs'])} reached the end"
         )
     return 0
 
@@ -50,13 +49,24 @@ def _run(worlds: list[str], options: argparse.Namespace) -> dict[str, list[Drift
         walks = [pool.submit(walk_pattern, world, seed, options.metres) for world in worlds for seed in seeds]
         for walk in tqdm(as_completed(walks), total=len(walks), unit=" walks", file=sys.stderr):
             run = walk.result()
+            tqdm.write(_line(run), file=sys.stderr)
             results[run.world].append(run)
     return {world: sorted(runs, key=lambda run: run.seed) for world, runs in results.items()}
+
+
+def _line(run: DriftRun) -> str:
+    errors = ", ".join(
+        f"{name} {of.drift_percent:.3f} % of {of.path_length:.1f} m, ATE {of.ate_m:.4f} m, "
+        f"NEES {of.normalised_error:.1f}"
+        for name, of in (("drift", run.with_contacts), ("without contacts", run.without_contacts))
+    )
+    return f"{run.world:8s} seed {run.seed}: {errors}, {run.seconds:.0f} s{run.stuck and f'; stuck: {run.stuck}'}"
 
 
 def _summary(runs: list[DriftRun]) -> dict[str, Any]:
     """Means over the runs with contacts, the same without, and every run."""
     return _means([run.with_contacts for run in runs]) | {
+        "reached": sum(not run.stuck for run in runs),
         "nees_band": band_of_mean(len(runs)),
         "without_contacts": _means([run.without_contacts for run in runs]),
         "runs": [run.as_dict() for run in runs],
