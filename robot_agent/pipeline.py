@@ -22,7 +22,7 @@ from robot_agent.modes import ModeMachine, Permission
 from robot_agent.navigation import FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
 from robot_agent.odometry import NavigationState, OwnLegs, StatePropagator, StereoInertialOdometry
 from robot_agent.orders import Orders
-from robot_agent.perception import FeltGround, Roughness, TerrainPerception
+from robot_agent.perception import BodySense, FeltGround, Roughness, TerrainPerception
 from robot_agent.safety import SafetySupervisor, Verdict
 from robot_agent.vigilance import Vigilance
 from robot_agent.vision.camera import StereoCalibration
@@ -95,7 +95,7 @@ class VisionPipeline:
         odometry = self._odometry.step(frame, imu, contacts, OwnLegs.of(self._robot, legs))
         self._frames += 1
         self._map.remember(odometry)
-        self._feel(contacts, odometry)
+        self._feel(contacts, legs, odometry)
         if self._frames % self._perceive_every:
             return VisionTick(odometry=odometry, terrain=None, report=None, tiles=())
         perceived = self._perception.step(frame, odometry, self._ground_height(contacts, odometry))
@@ -121,13 +121,16 @@ class VisionPipeline:
         height = contacts.ground_height(odometry.world_from_body, self._robot.foot_radius)
         return height if np.isfinite(height) else None
 
-    def _feel(self, contacts: FootContacts | None, odometry: OdometryEstimate) -> None:
-        """Footholds enter the map, and speak of the ground, while it is known where they are."""
-        footholds, standing = self._feet.step(contacts, odometry.world_from_body), self._feet.standing
-        if odometry.quality not in (OdometryQuality.GOOD, OdometryQuality.DEGRADED):
-            footholds, standing = footholds[:0], np.full_like(standing, np.nan)
-        self._felt = self._felt_ground.step(standing, odometry.position_in_world, odometry.stamp_ns)
-        if len(footholds):
+    def _feel(self, contacts: FootContacts | None, legs: LegBatch, odometry: OdometryEstimate) -> None:
+        """Footholds enter the map while it is known where they are; with loads and tilt they speak of the ground."""
+        footholds = self._feet.step(contacts, odometry.world_from_body)
+        placed = odometry.quality in (OdometryQuality.GOOD, OdometryQuality.DEGRADED)
+        self._felt = self._felt_ground.step(
+            BodySense.of(
+                self._robot, legs, odometry.stamp_ns, odometry.world_from_body, self._feet.standing, placed=placed
+            )
+        )
+        if len(footholds) and placed:
             self._map.touch(footholds, odometry.stamp_ns)
 
     def _route(self, odometry: OdometryEstimate) -> RoutePlan | None:

@@ -186,5 +186,6 @@ def _joined(parts: list[LegBatch]) -> LegBatch:
     return LegBatch(
         stamp_ns=np.concatenate([part.stamp_ns for part in parts]),
         joint_position=np.concatenate([part.joint_position for part in parts]),
+        joint_torque=np.concatenate([part.joint_torque for part in parts]),
         foot_contact=np.concatenate([part.foot_contact for part in parts]),
     )

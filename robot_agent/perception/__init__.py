@@ -2,8 +2,8 @@
 
 from robot_agent.perception.disparity_grid import HeightGrid
 from robot_agent.perception.features import Roughness
-from robot_agent.perception.felt_ground import FeltGround
+from robot_agent.perception.felt_ground import BodySense, FeltGround
 from robot_agent.perception.terrain import PerceivedTerrain, TerrainPerception
 from robot_agent.perception.warm_up import warm_up
 
-__all__ = ["FeltGround", "HeightGrid", "PerceivedTerrain", "Roughness", "TerrainPerception", "warm_up"]
+__all__ = ["BodySense", "FeltGround", "HeightGrid", "PerceivedTerrain", "Roughness", "TerrainPerception", "warm_up"]

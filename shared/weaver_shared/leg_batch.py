@@ -18,6 +18,7 @@ class LegBatch:
 
     stamp_ns: NDArray[np.int64]  # (n,)
     joint_position: Array  # (n, joints) rad
+    joint_torque: Array  # (n, joints) N m
     foot_contact: NDArray[np.bool_]  # (n, legs)
 
     @staticmethod
@@ -30,6 +31,7 @@ class LegBatch:
         return LegBatch(
             stamp_ns=np.array([sensed.stamp_ns for sensed in readings], dtype=np.int64),
             joint_position=_stacked([sensed.joint_position for sensed in readings]),
+            joint_torque=_stacked([sensed.joint_torque for sensed in readings]),
             foot_contact=_stacked([sensed.foot_contact for sensed in readings]).astype(np.bool_),
         )
 

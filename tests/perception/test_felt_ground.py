@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from robot_agent.perception import FeltGround
+from robot_agent.perception import BodySense, FeltGround
 from weaver_shared.config.perception import FeatureConfig, FeltConfig
 
 SECOND = 1_000_000_000
@@ -20,13 +20,19 @@ def footholds(n, deviation, seed=0, slope=(0.0, 0.0), middle=(0.0, 0.0)):
 IN_THE_AIR = np.full((6, 3), np.nan)
 
 
+def sense(standing, place=(0.0, 0.0), stamp_ns=0):
+    """Feet that stand with the same load, under a level body."""
+    load = np.where(np.isfinite(standing).all(axis=1), 17.0, np.nan)
+    return BodySense(stamp_ns=stamp_ns, standing=standing, load=load, tilt=np.zeros(2), place=np.array(place))
+
+
 def walk(ground, points, place=(0.0, 0.0), stamp_ns=0):
     """Stand on `points` by sixes, every time with the next feet, the last ones staying down."""
     for k in range(0, len(points), 6):
         standing = IN_THE_AIR.copy()
         standing[: len(points[k : k + 6])] = points[k : k + 6]
-        ground.step(IN_THE_AIR, np.array(place), stamp_ns)
-        result = ground.step(standing, np.array(place), stamp_ns)
+        ground.step(sense(IN_THE_AIR, place, stamp_ns))
+        result = ground.step(sense(standing, place, stamp_ns))
     return result
 
 
@@ -73,20 +79,20 @@ def test_footholds_far_off_and_long_ago_are_forgotten():
     away = np.array([1.5, 0.0])
     assert np.isnan(walk(ground, footholds(3, 0.0, middle=away), away, SECOND).roughness)
     assert walk(ground, footholds(9, 0.0, seed=2, middle=away), away, 2 * SECOND).roughness < 0.05
-    ground.step(IN_THE_AIR, away, 3 * SECOND)
+    ground.step(sense(IN_THE_AIR, away, 3 * SECOND))
     later = int((CONFIG.memory + 4.0) * SECOND)
-    assert np.isnan(ground.step(IN_THE_AIR, away, later).roughness)
+    assert np.isnan(ground.step(sense(IN_THE_AIR, away, later)).roughness)
 
 
 def test_feet_that_go_on_standing_are_not_forgotten():
     ground, standing = FeltGround(CONFIG, FEATURES), footholds(6, 0.0)
     for second in range(int(3 * CONFIG.memory)):
-        level = ground.step(standing, np.zeros(2), second * SECOND)
+        level = ground.step(sense(standing, stamp_ns=second * SECOND))
     assert level.roughness < 0.05 < 2.0 * level.roughness_sigma + 0.05
     assert len(ground._points) == 0
 
 
 def test_a_foot_that_stands_counts_once_however_long():
     ground, standing = FeltGround(CONFIG, FEATURES), footholds(6, 0.02)
-    once = ground.step(standing, np.zeros(2), 0)
-    assert ground.step(standing, np.zeros(2), SECOND) == once
+    once = ground.step(sense(standing))
+    assert ground.step(sense(standing, stamp_ns=SECOND)) == once
