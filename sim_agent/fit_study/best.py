@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from sim_agent.fit_study.trial import TrialResult
 
 Array = NDArray[np.float64]
+Parameters = tuple[float, float, float]
+"""Virtual stiffness (N/m), stride frequency (Hz) and stride height (m)."""
 
 SWAY = np.deg2rad(3.0)
 """Root mean square of roll and pitch together at which a walk counts as twice as costly."""
@@ -27,13 +29,14 @@ class BestGait:
     step_height: float
     sets: int
     passed: int  # sets that reached the end with every seed
-    parameters: tuple[float, float, float]  # mean of the good sets; NaN where none passed
-    spread: tuple[float, float, float]  # their standard deviation
+    parameters: Parameters  # mean of the good sets; NaN where none passed
+    spread: Parameters  # their standard deviation
     score: float  # lowest
-    cost_total: float  # of the set with that score
+    lowest: Parameters  # the set with that score
+    cost_total: float  # of it, as the next two
     sway_deg: float
     speed: float  # m/s
-    fastest: tuple[float, float, float]  # what speed alone, the paper's measure, would choose
+    fastest: Parameters  # what speed alone, the paper's measure, would choose
     fastest_speed: float
 
 
@@ -44,7 +47,7 @@ def score(cost: float, variance: float) -> float:
 
 def best_gait(ground: str, indices: tuple[float, float], results: Iterable[TrialResult]) -> BestGait:
     """Weigh the sets of one ground; a set that failed with any seed is out."""
-    by_set: dict[tuple[float, float, float], list[TrialResult]] = {}
+    by_set: dict[Parameters, list[TrialResult]] = {}
     for result in results:
         by_set.setdefault(result.trial.parameters, []).append(result)
     passed = {values: runs for values, runs in by_set.items() if all(run.outcome == "reached" for run in runs)}
@@ -67,6 +70,7 @@ def best_gait(ground: str, indices: tuple[float, float], results: Iterable[Trial
         parameters=_triple(mean),
         spread=_triple(spread),
         score=float(scores[chosen]),
+        lowest=_triple(sets[chosen]),
         cost_total=float(figures[chosen, 1]),
         sway_deg=float(np.rad2deg(np.sqrt(figures[chosen, 2]))),
         speed=float(figures[chosen, 3]),
@@ -94,6 +98,7 @@ def _none_passed(ground: str, indices: tuple[float, float], sets: int) -> BestGa
         parameters=unknown,
         spread=unknown,
         score=nothing,
+        lowest=unknown,
         cost_total=nothing,
         sway_deg=nothing,
         speed=nothing,
@@ -102,6 +107,6 @@ def _none_passed(ground: str, indices: tuple[float, float], sets: int) -> BestGa
     )
 
 
-def _triple(values: Array) -> tuple[float, float, float]:
+def _triple(values: Array) -> Parameters:
     first, second, third = (float(value) for value in values)
     return first, second, third

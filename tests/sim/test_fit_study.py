@@ -15,6 +15,7 @@ from sim_agent.fit_study.fragment import write_fragment
 from sim_agent.fit_study.grounds import GROUNDS, measured_section, true_indices
 from sim_agent.fit_study.least_squares import adapted, fit
 from sim_agent.fit_study.plan import grounds_named, trials, widened
+from sim_agent.fit_study.refinement import refined
 from sim_agent.fit_study.store import TrialStore
 from sim_agent.fit_study.trial import TrialResult, walk_trial
 from weaver_shared.config.adaptation import AdaptationConfig
@@ -121,6 +122,28 @@ def test_a_set_that_fails_with_one_seed_is_out():
     assert np.isnan(nothing.parameters).all()
 
 
+def test_the_search_goes_on_halfway_to_the_neighbours_of_the_best_set():
+    tried = trials("weaver", USED, grounds_named("rubble", quick=True), range(2), quick=True)
+    best = best_gait("rubble", INDICES["rubble"], map(made_up_trial, tried))
+    (c, f, h), lowest = best.lowest, best.score
+    closer = refined(best.lowest, tried)
+    assert {trial.seed for trial in closer} == {0, 1}
+    for trial in closer:
+        changed = [new != old for new, old in zip(trial.parameters, (c, f, h), strict=True)]
+        assert sum(changed) == 1
+        assert 400.0 <= trial.virtual_stiffness <= 2500.0
+    assert {round(abs(trial.stride_frequency - f), 6) for trial in closer} == {0.0, 0.2}
+    again = best_gait("rubble", INDICES["rubble"], map(made_up_trial, [*tried, *closer]))
+    assert again.score < lowest
+    assert not {trial.parameters for trial in refined(again.lowest, [*tried, *closer])} & {t.parameters for t in tried}
+
+
+def test_where_nothing_passed_there_is_nothing_to_search_closer():
+    tried = trials("weaver", USED, grounds_named("sand", quick=True), range(1), quick=True)
+    failed = best_gait("sand", (0.3, 0.2), [replace(made_up_trial(tried[0]), outcome="fell")])
+    assert refined(failed.lowest, tried) == []
+
+
 def test_sway_makes_a_cheap_walk_a_poor_one():
     assert score(8.0, np.deg2rad(3.0) ** 2) == pytest.approx(16.0)
     assert score(8.0, 0.0) == 8.0
@@ -192,7 +215,8 @@ def test_an_interrupted_study_goes_on_and_reports(tmp_path, monkeypatch, capsys)
     capsys.readouterr()
     assert study_fit.main(arguments) == 0
     report = json.loads(capsys.readouterr().out)
-    assert report["trials"] == len(walked) + len(rest) == 120
+    assert report["trials"] == len(walked) + len(rest) > 120
+    assert len({trial.name for trial in rest}) == len(rest)
     assert not {trial.name for trial in rest} & set(walked)
     assert [one["name"] for one in report["polynomials"]] == ["virtual_stiffness", "stride_frequency", "stride_height"]
     assert (tmp_path / "report.html").read_text().count("data:image/png;base64,") == 2
