@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from robot_agent.mapping import TerrainMap
 from robot_agent.mapping.sliding_features import cell_features
 from robot_agent.perception import TerrainPerception
-from robot_agent.perception.disparity_grid import SUBPIXELS, DisparityGrid
+from robot_agent.perception.disparity_grid import LARGEST_DISPARITY, SUBPIXELS, DisparityGrid
 from robot_agent.perception.stereo_matching import StereoMatcher
 from robot_agent.perception.working_camera import WorkingCamera
 from robot_agent.vision.camera import StereoCalibration
@@ -111,10 +111,11 @@ def _fusion(robot: RobotDescription, standing: Pose, config: PerceptionConfig) -
     usable = np.flatnonzero(disparity > 0)
     disparity[usable[: max(0, len(usable) - FUSION_POINTS)]] = -1
     wide = config.grid.model_copy(update={"reach": 2.0, "height_gate": 10.0})
-    grid = DisparityGrid(camera, wide, config.matching.disparity_sigma)
+    everything = config.matching.model_copy(update={"smallest_disparity": 1.0, "disparities": LARGEST_DISPARITY})
+    grid = DisparityGrid(camera, wide, everything)
     picture = disparity.reshape(camera.height, camera.width)
     world_from_camera = standing @ camera.body_from_camera
-    return lambda: grid.fuse(picture, world_from_camera, (0.0, 0.0, 0.0), 1.0)
+    return lambda: grid.fuse(picture, world_from_camera, (0.0, 0.0, 0.0))
 
 
 def _least_ms(work: Callable[[], object], repeats: int) -> float:

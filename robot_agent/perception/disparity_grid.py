@@ -11,7 +11,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from robot_agent.perception.working_camera import WorkingCamera
-from weaver_shared.config.perception import GridConfig
+from weaver_shared.config.perception import GridConfig, MatchingConfig
 from weaver_shared.transforms import Pose
 
 Array = NDArray[np.float64]
@@ -70,7 +70,8 @@ class _Projection(NamedTuple):
 class _Gate(NamedTuple):
     """Expected ground z = a x + b y + c, half height at the camera and its growth with distance, reach (m).
 
-    What is higher than the gate and within `headroom` m of the ground hangs overhead.
+    What is higher than the gate and within `headroom` m of the ground hangs overhead. `nearest` is the least depth in m
+    that the matcher can find: a ray that meets the expected ground before it has nothing true to show.
     """
 
     a: float
@@ -80,6 +81,7 @@ class _Gate(NamedTuple):
     slope: float
     reach: float
     headroom: float
+    nearest: float
 
 
 class _Cells(NamedTuple):
@@ -99,8 +101,9 @@ class _Points(NamedTuple):
 class DisparityGrid:
     """Turns one disparity picture into a `HeightGrid` about the camera; keeps its scratch memory."""
 
-    def __init__(self, camera: WorkingCamera, config: GridConfig, disparity_sigma: float) -> None:
+    def __init__(self, camera: WorkingCamera, config: GridConfig, matching: MatchingConfig) -> None:
         self._config = config
+        self._smallest = max(1, round(matching.smallest_disparity * SUBPIXELS))
         self._columns, self._rows = camera.ray_slopes()
         pixels = camera.width * camera.height
         self._points = _Points(
@@ -110,14 +113,14 @@ class DisparityGrid:
         self._half = math.ceil(config.reach / config.cell)
         disparity = np.maximum(np.arange(LARGEST_DISPARITY * SUBPIXELS), 1) / SUBPIXELS
         self._depths = camera.focal_length * camera.baseline / disparity
-        self._depth_sigmas = self._depths / disparity * disparity_sigma
+        self._depth_sigmas = self._depths / disparity * matching.disparity_sigma
+        self._nearest = camera.focal_length * camera.baseline / (matching.disparities - 1)
 
     def fuse(
         self,
         disparity: NDArray[np.int16],
         world_from_camera: Pose,
         ground: tuple[float, float, float],
-        smallest_disparity: float,
     ) -> HeightGrid:
         """Highest points of `disparity` (height, width), sixteenths of a pixel, invalid where not positive.
 
@@ -131,7 +134,7 @@ class DisparityGrid:
             rows=self._rows,
             depths=self._depths,
             depth_sigmas=self._depth_sigmas,
-            smallest=max(1, round(smallest_disparity * SUBPIXELS)),
+            smallest=self._smallest,
             rotation=np.ascontiguousarray(world_from_camera.rotation, dtype=np.float64),
             position=np.ascontiguousarray(world_from_camera.position, dtype=np.float64),
         )
@@ -144,6 +147,7 @@ class DisparityGrid:
             slope=config.gate_slope,
             reach=config.reach,
             headroom=config.headroom,
+            nearest=self._nearest,
         )
         cells = _Cells(row0=row, column0=column, size=size, cell=config.cell)
         tops = np.zeros((size * size, _TOP_FIELDS), dtype=np.float32)
@@ -191,6 +195,8 @@ def _list_points(
     ground = gate.a * position[0] + gate.b * position[1] + gate.c
     smallest, largest = projection.smallest, projection.depths.shape[0] - 1
     reach_squared, slope_squared = gate.reach * gate.reach, gate.slope * gate.slope
+    # Rays that sink faster than this towards the ground meet it nearer than anything can be matched.
+    steepest = (ground - position[2]) / gate.nearest
     listed = 0
     for v in range(BORDER, height - BORDER):
         row_slope = projection.rows[v]
@@ -207,6 +213,8 @@ def _list_points(
             if distance_squared > reach_squared:
                 continue
             z_slope = z_column[u] + z_row
+            if z_slope - gate.a * (x_column[u] + x_row) - gate.b * (y_column[u] + y_row) < steepest:
+                continue
             z = position[2] + depth * z_slope
             above = z - ground - gate.a * dx - gate.b * dy
             beyond = abs(above) - gate.height

@@ -47,7 +47,7 @@ class TerrainPerception:
         self._rectifier = Rectifier(calibration, config.matching.scale)
         self.camera = WorkingCamera.of(self._rectifier)
         self._matcher = StereoMatcher(config.matching)
-        self._grid = DisparityGrid(self.camera, config.grid, config.matching.disparity_sigma)
+        self._grid = DisparityGrid(self.camera, config.grid, config.matching)
 
     def step(
         self, frame: StereoFrame, odometry: OdometryEstimate, ground_height: float | None = None
@@ -72,7 +72,6 @@ class TerrainPerception:
             disparity,
             world_from_camera,
             self._foot_plane(world_from_body, ground_height),
-            self._config.matching.smallest_disparity,
         )
         estimate = self._characterise(grid, world_from_body, world_from_camera, frame.stamp_ns, health, reason)
         return PerceivedTerrain(

@@ -7,12 +7,13 @@ from robot_agent.perception.disparity_grid import SUBPIXELS, DisparityGrid
 from robot_agent.perception.working_camera import WorkingCamera
 from robot_agent.vision.camera import StereoCalibration
 from robot_agent.vision.rectification import Rectifier
-from weaver_shared.config.perception import GridConfig
+from weaver_shared.config.perception import GridConfig, MatchingConfig
 from weaver_shared.robots import load_robot
 from weaver_shared.transforms import Pose, rotation_from_rpy
 
 CAMERA = WorkingCamera.of(Rectifier(StereoCalibration.of_robot(load_robot()), 0.5))
 CONFIG = GridConfig()
+MATCHING = MatchingConfig()
 LEVEL = (0.0, 0.0, 0.0)
 
 
@@ -33,7 +34,7 @@ def disparity_of(depth):
 
 
 def fuse(disparity, world_from_camera, config=CONFIG):
-    return DisparityGrid(CAMERA, config, 0.24).fuse(disparity, world_from_camera, LEVEL, 6.0)
+    return DisparityGrid(CAMERA, config, MATCHING).fuse(disparity, world_from_camera, LEVEL)
 
 
 def known(grid):
@@ -76,10 +77,10 @@ def test_the_kernel_finds_the_same_tops_as_plain_numpy():
 def test_points_far_from_where_ground_can_be_are_left_out():
     pose = body() @ CAMERA.body_from_camera
     disparity = disparity_of(depths_of_plane(pose, 0.0))
-    grid = DisparityGrid(CAMERA, CONFIG, 0.24)
+    grid = DisparityGrid(CAMERA, CONFIG, MATCHING)
     for height in (-1.0, 1.0):
-        assert np.isnan(grid.fuse(disparity, pose, (0.0, 0.0, height), 6.0).elevation).all()
-    assert np.isfinite(grid.fuse(disparity, pose, (0.0, 0.0, 0.1), 6.0).elevation).any()
+        assert np.isnan(grid.fuse(disparity, pose, (0.0, 0.0, height)).elevation).all()
+    assert np.isfinite(grid.fuse(disparity, pose, (0.0, 0.0, 0.1)).elevation).any()
 
 
 def test_a_lonely_height_is_dropped():
@@ -88,6 +89,28 @@ def test_a_lonely_height_is_dropped():
     disparity[150:152, 160:162] = disparity[150, 160] + 12 * SUBPIXELS
     *_, z, _ = known(fuse(disparity, pose))
     assert z.max() < 0.01
+
+
+def test_ground_too_near_to_be_matched_is_no_pit():
+    """Where a sitting robot looks at its own feet the right disparity lies beyond the search: any found is wrong."""
+    sitting = Pose(rotation=rotation_from_rpy(0.0, 0.0, 0.4), position=np.array([1.3, -0.7, 0.0]))
+    pose = sitting @ CAMERA.body_from_camera
+    disparity = disparity_of(depths_of_plane(pose, 0.0))
+    too_near = disparity > (MATCHING.disparities - 1) * SUBPIXELS
+    assert too_near.mean() > 0.3
+    # Patches of one wrong disparity, as a matcher makes them: large enough to keep each other company.
+    wrong = np.random.default_rng(0).integers(6 * SUBPIXELS, 63 * SUBPIXELS, (CAMERA.height // 12, CAMERA.width // 16))
+    disparity[too_near] = np.kron(wrong, np.ones((12, 16), dtype=np.int16))[too_near]
+    *_, z, _ = known(fuse(disparity, pose))
+    assert len(z) > 1500
+    assert np.abs(z).max() < 0.01
+
+
+def test_a_pit_ahead_is_still_seen():
+    pose = body() @ CAMERA.body_from_camera
+    z = known(fuse(disparity_of(depths_of_plane(pose, -0.15)), pose))[2]
+    assert len(z) > 1000
+    assert np.abs(z + 0.15).max() < 0.01
 
 
 def test_no_disparity_gives_no_ground():
