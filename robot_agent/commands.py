@@ -110,6 +110,7 @@ class CommandDesk:
             CommandName.MOVE_JOINT: self._moving(self._legs.move_joint),
             CommandName.PLACE_FOOT: self._moving(self._place_foot),
             CommandName.SET_POSING: self._moving(self._motion.set_posing),
+            CommandName.LOOK_CLOSELY: self._not_here,
             CommandName.START_RECORDING: self._not_here,
             CommandName.STOP_RECORDING: self._not_here,
             CommandName.START_CALIBRATION: self._not_here,

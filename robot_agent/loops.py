@@ -14,6 +14,7 @@ from robot_agent.body import Body, JointTargets
 from robot_agent.commands import CommandDesk, Situation
 from robot_agent.felt_queue import Felt, FeltQueue
 from robot_agent.mapping import TerrainMap
+from robot_agent.perception import CloseLook
 from robot_agent.pipeline import VisionPipeline, VisionTick, WalkPipeline, WalkTick
 from robot_agent.telemetry import Telemetry
 from robot_agent.timing import LoopMeter
@@ -22,6 +23,7 @@ from weaver_shared.bus import Bus
 from weaver_shared.latest import LatestSlot
 from weaver_shared.messages import (
     AdaptationReport,
+    Event,
     Health,
     NavigationGoal,
     OdometryEstimate,
@@ -191,9 +193,9 @@ class VisionLoop:
         """The terrain map, once begun; not to be touched while a picture is processed."""
         return self._pipeline.map if self._pipeline is not None else None
 
-    def step(self, frame: StereoFrame) -> VisionTick:
+    def step(self, frame: StereoFrame, *, closely: bool = False) -> VisionTick:
         """Process one pair whose IMU samples have arrived, and publish what came of it."""
-        tick = self.process(frame, self.take_felt(frame.stamp_ns))
+        tick = self.process(frame, self.take_felt(frame.stamp_ns), closely=closely)
         self.publish(tick)
         return tick
 
@@ -201,12 +203,12 @@ class VisionLoop:
         """What was felt up to a picture's stamp, each reading once."""
         return self._felt.up_to(stamp_ns)
 
-    def process(self, frame: StereoFrame, felt: Felt) -> VisionTick:
+    def process(self, frame: StereoFrame, felt: Felt, *, closely: bool = False) -> VisionTick:
         """Process one pair without publishing: safe on another thread while this one goes on feeling."""
         if self._pipeline is None:
             raise RuntimeError("begin() comes before process()")
         self._meter.woke(frame.stamp_ns)
-        return self._pipeline.step(frame, felt.imu, felt.legs)
+        return self._pipeline.step(frame, felt.imu, felt.legs, closely=closely)
 
     def publish(self, tick: VisionTick) -> None:
         publish = self._bus.publish
@@ -219,6 +221,8 @@ class VisionLoop:
             publish(self._robot_id, topics.MAP_TILE, tile, i=tile.i, j=tile.j)
         if tick.route is not None:
             publish(self._robot_id, topics.ROUTE, tick.route)
+        if tick.look is not None:
+            publish(self._robot_id, topics.EVENT, _event_of(tick.look))
         # Between pictures, so that a search on another thread sees one goal from beginning to end.
         if self._pipeline is not None and (goal := self._goal.take()) is not None:
             self._pipeline.seek(goal)
@@ -238,3 +242,12 @@ class VisionLoop:
             max_temperature=float("nan"),
         )
         self._bus.publish(self._robot_id, topics.HEALTH, health, process="vision")
+
+
+def _event_of(look: CloseLook) -> Event:
+    if look.cells:
+        severity = Severity.INFO
+        text = f"a close look measured {look.cells} cells, typically to {1000 * look.sigma:.1f} mm"
+    else:
+        severity, text = Severity.WARNING, f"a close look measured nothing: {look.reason}"
+    return Event(stamp_ns=look.stamp_ns, severity=severity, source="vision", text=text)

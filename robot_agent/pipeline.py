@@ -22,7 +22,7 @@ from robot_agent.modes import ModeMachine, Permission
 from robot_agent.navigation import FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
 from robot_agent.odometry import NavigationState, OwnLegs, StatePropagator, StereoInertialOdometry
 from robot_agent.orders import Orders
-from robot_agent.perception import BodySense, FeltGround, Roughness, TerrainPerception
+from robot_agent.perception import BodySense, CloseLook, FeltGround, Roughness, TerrainPerception
 from robot_agent.safety import SafetySupervisor, Verdict
 from robot_agent.vigilance import Vigilance
 from robot_agent.vision.camera import StereoCalibration
@@ -60,6 +60,7 @@ class VisionTick:
     report: AdaptationReport | None
     tiles: tuple[MapTile, ...]
     route: RoutePlan | None = None  # when a way was looked for
+    look: CloseLook | None = None  # when a close one was asked for
 
 
 class VisionPipeline:
@@ -89,16 +90,20 @@ class VisionPipeline:
         """Look for a way to this place from now on, or for none."""
         self._goal = goal if goal is not None and goal.active else None
 
-    def step(self, frame: StereoFrame, imu: ImuBatch, legs: LegBatch) -> VisionTick:
-        """One stereo pair with all IMU samples and readings of the legs since the previous one."""
+    def step(self, frame: StereoFrame, imu: ImuBatch, legs: LegBatch, *, closely: bool = False) -> VisionTick:
+        """One stereo pair with all IMU samples and readings of the legs since the previous one.
+
+        `closely`: perceived in any case, and at full resolution.
+        """
         contacts = FootContacts.of(self._robot, legs)
         odometry = self._odometry.step(frame, imu, contacts, OwnLegs.of(self._robot, legs))
         self._frames += 1
         self._map.remember(odometry)
         self._feel(contacts, legs, odometry)
-        if self._frames % self._perceive_every:
+        if self._frames % self._perceive_every and not closely:
             return VisionTick(odometry=odometry, terrain=None, report=None, tiles=())
-        perceived = self._perception.step(frame, odometry, self._ground_height(contacts, odometry))
+        ground_height = self._ground_height(contacts, odometry)
+        perceived = self._perception.step(frame, odometry, ground_height, closely=closely)
         self._map.follow(self._odometry.settled_poses)
         self._map.update(perceived, odometry)
         x, y, _ = odometry.position_in_world
@@ -112,6 +117,7 @@ class VisionPipeline:
             report=report,
             tiles=tuple(self._map.changed_tiles(frame.stamp_ns)),
             route=self._route(odometry),
+            look=CloseLook.of(perceived) if closely else None,
         )
 
     def _ground_height(self, contacts: FootContacts | None, odometry: OdometryEstimate) -> float | None:

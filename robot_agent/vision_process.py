@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 
+from robot_agent.close_looks import CloseLooks
 from robot_agent.loops import VisionLoop
 from weaver_shared import topics
 from weaver_shared.bus import Bus
@@ -29,6 +30,8 @@ class VisionProcess:
         self._pending: list[Proprioception] = []
         self._loop = VisionLoop(robot_id=robot_id, robot=robot, bus=bus)
         self._last_ns = -1
+        self._looks = CloseLooks()
+        bus.answer_queries(robot_id, topics.VISION_COMMANDS, self._looks.ask)
         bus.subscribe(robot_id, topics.STEREO, lambda _id, _key, frame: self._pictures.put(frame))
         bus.subscribe(robot_id, topics.STATE, lambda _id, _key, state: self._states.put(state))
         bus.subscribe(robot_id, topics.PROPRIOCEPTION, self._feel)
@@ -56,7 +59,9 @@ class VisionProcess:
             self._loop.begin(Pose.of(state.position_in_world, state.wxyz))
         if self._gather(frame.stamp_ns):
             self._last_ns = frame.stamp_ns
-            self._loop.step(frame)
+            tick = self._loop.step(frame, closely=self._looks.due(frame.stamp_ns))
+            if tick.look is not None:
+                self._looks.answer(tick.look)
 
     def _gather(self, stamp_ns: int) -> bool:
         """Hand over what was felt; True when the IMU has reached the picture's stamp."""

@@ -42,6 +42,7 @@ WATCHED: tuple[Topic, ...] = (
 ELSEWHERE = {
     CommandName.START_RECORDING: topics.RECORDER_COMMANDS,
     CommandName.STOP_RECORDING: topics.RECORDER_COMMANDS,
+    CommandName.LOOK_CLOSELY: topics.VISION_COMMANDS,
     CommandName.START_CALIBRATION: topics.CALIBRATOR_COMMANDS,
     CommandName.SOLVE_CALIBRATION: topics.CALIBRATOR_COMMANDS,
     CommandName.END_CALIBRATION: topics.CALIBRATOR_COMMANDS,
@@ -49,7 +50,7 @@ ELSEWHERE = {
 """Commands that another process of the robot than the walking one carries out; they need no control of it."""
 
 ELSEWHERE_TIMEOUT = 3.0
-"""s; those have disks to wait for."""
+"""s; those have disks and pictures to wait for."""
 
 
 class Link:

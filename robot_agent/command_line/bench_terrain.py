@@ -55,8 +55,8 @@ def measure(repeats: int) -> dict[str, dict[str, float]]:
         OdometryEstimate.at_rest(standing),
     )
 
-    def whole_frame() -> None:
-        terrain_map.update(perception.step(frame, odometry), odometry)
+    def whole_frame(*, closely: bool) -> None:
+        terrain_map.update(perception.step(frame, odometry, closely=closely), odometry)
 
     elevation = np.random.default_rng(0).normal(0.0, 0.01, (FEATURE_CELLS, FEATURE_CELLS)).astype(np.float32)
     variance = np.full_like(elevation, 4e-6)
@@ -67,7 +67,8 @@ def measure(repeats: int) -> dict[str, dict[str, float]]:
             "match": _least_ms(lambda: matcher.match(left, right), repeats),
             "fusion": _least_ms(fuse, repeats),
             "features": _least_ms(lambda: cell_features(elevation, variance, mapping), repeats),
-            "frame": _least_ms(whole_frame, repeats),
+            "frame": _least_ms(lambda: whole_frame(closely=False), repeats),
+            "close_look": _least_ms(lambda: whole_frame(closely=True), max(1, repeats // 5)),
         },
         "size": {
             "fusion_points": FUSION_POINTS,
@@ -132,7 +133,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="weaver bench terrain",
         description="CPU milliseconds of one thread: match (320 x 240, 64 disparities), fusion (219 500 points into "
-        "2 cm cells), features (200 x 200 cells), frame (rectify, match, judge, fuse, characterise, map).",
+        "2 cm cells), features (200 x 200 cells), frame (rectify, match, judge, fuse, characterise, map), "
+        "close_look (the same at full resolution with 128 disparities, which an operator may ask for).",
     )
     parser.add_argument("--repeats", type=int, default=30, help="runs of each, of which the least counts (default 30)")
     parser.add_argument("--json", action="store_true", help="print one JSON object; times in ms")

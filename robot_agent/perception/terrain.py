@@ -7,14 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.perception.disparity_grid import DisparityGrid, HeightGrid
+from robot_agent.perception.disparity_grid import HeightGrid
 from robot_agent.perception.features import Roughness, characterise, patch_features
 from robot_agent.perception.ground_plane import fit_plane
-from robot_agent.perception.health import PictureHealth, assess
-from robot_agent.perception.stereo_matching import StereoMatcher
-from robot_agent.perception.working_camera import WorkingCamera
+from robot_agent.perception.health import PictureHealth
+from robot_agent.perception.stereo_sight import StereoSight
 from robot_agent.vision.camera import StereoCalibration
-from robot_agent.vision.rectification import Rectifier
 from weaver_shared.config.perception import PerceptionConfig
 from weaver_shared.messages import OdometryEstimate, OdometryQuality, StereoFrame, TerrainEstimate
 from weaver_shared.transforms import Pose, rotation_z
@@ -44,22 +42,27 @@ class TerrainPerception:
         config: PerceptionConfig = PerceptionConfig(),  # noqa: B008
     ) -> None:
         self._config = config
-        self._rectifier = Rectifier(calibration, config.matching.scale)
-        self.camera = WorkingCamera.of(self._rectifier)
-        self._matcher = StereoMatcher(config.matching)
-        self._grid = DisparityGrid(self.camera, config.grid, config.matching)
+        self._working, self._close = (
+            StereoSight(calibration, matching, config.grid, config.health, config.matching.scale)
+            for matching in (config.matching, config.close_matching)
+        )
+        self.camera = self._working.camera
 
     def step(
-        self, frame: StereoFrame, odometry: OdometryEstimate, ground_height: float | None = None
+        self,
+        frame: StereoFrame,
+        odometry: OdometryEstimate,
+        ground_height: float | None = None,
+        *,
+        closely: bool = False,
     ) -> PerceivedTerrain:
         """Bad pictures or a lost pose give an estimate of NaN with its reason, never a flat ground.
 
         `ground_height` is the world's z in m under the soles, where the feet tell it; without, the robot is taken to
-        stand at its usual height.
+        stand at its usual height. `closely`: at full resolution, at several times the cost.
         """
-        left, right = self._rectifier.rectify(frame)
-        disparity = self._matcher.match(left, right)
-        health = assess(left, right, disparity, self._config.health)
+        sight = self._close if closely else self._working
+        disparity, health = sight.match(frame)
         world_from_body = odometry.world_from_body
         world_from_camera = world_from_body @ self.camera.body_from_camera
         lost = odometry.quality in (OdometryQuality.LOST, OdometryQuality.INITIALISING)
@@ -68,11 +71,7 @@ class TerrainPerception:
             disparity = np.full_like(disparity, -1)
         else:
             reason = health.reason
-        grid = self._grid.fuse(
-            disparity,
-            world_from_camera,
-            self._foot_plane(world_from_body, ground_height),
-        )
+        grid = sight.fuse(disparity, world_from_camera, self._foot_plane(world_from_body, ground_height))
         estimate = self._characterise(grid, world_from_body, world_from_camera, frame.stamp_ns, health, reason)
         return PerceivedTerrain(
             stamp_ns=frame.stamp_ns,

@@ -105,6 +105,9 @@ COMMANDS = Query(key="cmd", question=m.Command, answer=m.Answer, priority=Priori
 RECORDER_COMMANDS = Query(
     key="cmd/recorder", question=m.Command, answer=m.Answer, priority=Priority.INTERACTIVE, refuse=_refused
 )
+VISION_COMMANDS = Query(
+    key="cmd/vision", question=m.Command, answer=m.Answer, priority=Priority.INTERACTIVE, refuse=_refused
+)
 CALIBRATOR_COMMANDS = Query(
     key="cmd/calibrator", question=m.Command, answer=m.Answer, priority=Priority.INTERACTIVE, refuse=_refused
 )
@@ -130,6 +133,7 @@ QUERIES: tuple[Query[Any, Any], ...] = (
     RECORDING_PART,
     CALIBRATOR_COMMANDS,
     CALIBRATION_PART,
+    VISION_COMMANDS,
 )
 
 

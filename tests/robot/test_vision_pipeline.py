@@ -7,7 +7,7 @@ import pytest
 
 from robot_agent.evaluation.textured_ground import TexturedGround
 from robot_agent.mapping import TerrainMap
-from robot_agent.pipeline import VisionPipeline
+from robot_agent.pipeline import VisionPipeline, VisionTick
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.frames import GRAVITY
 from weaver_shared.leg_batch import LegBatch
@@ -18,22 +18,49 @@ from weaver_shared.transforms import Pose
 FRAME_NS, SAMPLE_NS = 50_000_000, 5_000_000
 
 
-def test_the_map_is_told_how_odometry_sees_earlier_pictures_now(monkeypatch: pytest.MonkeyPatch) -> None:
-    told: list[Mapping[int, Pose]] = []
-    monkeypatch.setattr(TerrainMap, "follow", lambda _, corrected: bool(told.append(corrected)))
-    robot = load_robot("weaver")
-    world_from_body = Pose(rotation=np.eye(3), position=np.array([0.0, 0.0, 0.165]))
-    ground = TexturedGround(StereoCalibration.of_robot(robot), seed=2)
-    pipeline = VisionPipeline(robot, world_from_body, perceive_every=1)
-    at_rest = robot.imu.body_from_imu.rotation.T @ np.array([0.0, 0.0, GRAVITY])
-    for k in range(1, 25):
-        stamps = np.arange((k - 1) * FRAME_NS + SAMPLE_NS, k * FRAME_NS + 1, SAMPLE_NS)
+class Standing:
+    """A robot at rest over textured ground, and its vision."""
+
+    def __init__(self, perceive_every: int) -> None:
+        robot = load_robot("weaver")
+        self._world_from_body = Pose(rotation=np.eye(3), position=np.array([0.0, 0.0, 0.165]))
+        self._ground = TexturedGround(StereoCalibration.of_robot(robot), seed=2)
+        self._pipeline = VisionPipeline(robot, self._world_from_body, perceive_every=perceive_every)
+        self._at_rest = robot.imu.body_from_imu.rotation.T @ np.array([0.0, 0.0, GRAVITY])
+        self._frames = 0
+
+    def step(self, *, closely: bool = False) -> VisionTick:
+        self._frames += 1
+        end_ns = self._frames * FRAME_NS
+        stamps = np.arange(end_ns - FRAME_NS + SAMPLE_NS, end_ns + 1, SAMPLE_NS)
         imu = ImuBatch(
             stamp_ns=stamps,
             angular_velocity_in_imu=np.zeros((len(stamps), 3)),
-            specific_force_in_imu=np.tile(at_rest, (len(stamps), 1)),
+            specific_force_in_imu=np.tile(self._at_rest, (len(stamps), 1)),
         )
-        pipeline.step(ground.look(k * FRAME_NS, k, world_from_body), imu, LegBatch.empty())
+        frame = self._ground.look(end_ns, self._frames, self._world_from_body)
+        return self._pipeline.step(frame, imu, LegBatch.empty(), closely=closely)
+
+
+def test_the_map_is_told_how_odometry_sees_earlier_pictures_now(monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[Mapping[int, Pose]] = []
+    monkeypatch.setattr(TerrainMap, "follow", lambda _, corrected: bool(told.append(corrected)))
+    standing = Standing(perceive_every=1)
+    for _ in range(24):
+        standing.step()
     assert told[0] == {}
     assert len(told[-1]) > 1
     assert max(told[-1]) == 24 * FRAME_NS
+
+
+def test_a_close_look_is_taken_of_a_picture_that_would_be_left_out() -> None:
+    standing = Standing(perceive_every=2)
+    for _ in range(24):
+        tick = standing.step()
+        assert tick.look is None
+    left_out = standing.step(closely=True)
+    assert left_out.terrain is not None
+    assert left_out.look is not None
+    assert left_out.look.cells > 2000
+    assert left_out.look.sigma < 0.002
+    assert standing.step().look is None

@@ -1,13 +1,25 @@
 """The vision process begins where the robot stands, waits for inertia, and begins anew with a restarted robot."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
 from robot_agent import vision_process
+from robot_agent.perception import CloseLook
+from robot_agent.pipeline import VisionTick
 from robot_agent.vision_process import VisionProcess
 from weaver_shared import topics
 from weaver_shared.bus import MemoryBus
-from weaver_shared.messages import ImuBatch, Proprioception, RobotState, StereoFrame
+from weaver_shared.messages import (
+    Command,
+    CommandName,
+    ImuBatch,
+    OdometryEstimate,
+    Proprioception,
+    RobotState,
+    StereoFrame,
+)
 from weaver_shared.robots import load_robot
 from weaver_shared.transforms import Pose
 
@@ -38,8 +50,11 @@ class RecordingLoop:
     def imu_covers(self, stamp_ns: int) -> bool:
         return bool(self.felt) and self.felt[-1] >= stamp_ns
 
-    def step(self, frame: StereoFrame) -> None:
+    def step(self, frame: StereoFrame, *, closely: bool) -> VisionTick:
         self.frames.append(frame.stamp_ns)
+        look = CloseLook(stamp_ns=frame.stamp_ns, cells=7, sigma=0.001, reason="") if closely else None
+        odometry = OdometryEstimate.at_rest(Pose.of([0.0, 0.0, 0.1]), frame.stamp_ns)
+        return VisionTick(odometry=odometry, terrain=None, report=None, tiles=(), look=look)
 
 
 @pytest.fixture
@@ -133,3 +148,16 @@ def test_a_restarted_robot_is_a_new_beginning(bus: MemoryBus, process: VisionPro
     assert loop.begun_at is not None
     assert loop.begun_at.position[0] == 0.0
     assert loop.frames == [100 * MS]
+
+
+def test_a_close_look_is_taken_of_the_next_picture_and_answered(bus: MemoryBus, process: VisionProcess) -> None:
+    command = Command(command=CommandName.LOOK_CLOSELY, operator="anna", lease_epoch=0, sequence=1)
+    with ThreadPoolExecutor(1) as worker:
+        answer = worker.submit(bus.ask, "sim-1", topics.VISION_COMMANDS, command)
+        stamp_ns = 100 * MS
+        while not answer.done():  # asked on another thread, at some picture
+            feel(bus, stamp_ns)
+            see(bus, process, stamp_ns)
+            stamp_ns += 100 * MS
+        assert answer.result().accepted
+        assert answer.result().applied_value == 7.0

@@ -26,6 +26,10 @@ class MatchingConfig(_Settings):
     smallest_disparity: Positive = 6.0  # px; beyond it a point says little about centimetres
 
 
+CLOSE_MATCHING = MatchingConfig(scale=1.0, disparities=128, speckle_area=400, smallest_disparity=12.0)
+"""Full resolution, 640 x 480, over the same depths."""
+
+
 class GridConfig(_Settings):
     """Disparities to the highest point of each cell, and the gates on the way."""
 
@@ -107,6 +111,7 @@ class PerceptionConfig(_Settings):
     mode: PlaneMode = "robust"
     foot_depth: Positive = 0.165  # m, the soles under the body's origin when standing
     matching: MatchingConfig = MatchingConfig()
+    close_matching: MatchingConfig = CLOSE_MATCHING
     grid: GridConfig = GridConfig()
     patch: PatchConfig = PatchConfig()
     features: FeatureConfig = FeatureConfig()

@@ -33,6 +33,7 @@ class CommandName(StrEnum):
     MOVE_JOINT = "move_joint"  # name: LEG_joint; value rad
     PLACE_FOOT = "place_foot"  # name: LEG.world, LEG.body; one waypoint x, y and value z (m): its next swing; seconds
     SET_POSING = "set_posing"  # name: automatic, levelling; value 1 or 0
+    LOOK_CLOSELY = "look_closely"  # the next picture in full resolution into the map; the vision loop's, needs no lease
     START_RECORDING = "start_recording"  # value 1: with the stereo pictures, 0: without; the recorder's, needs no lease
     STOP_RECORDING = "stop_recording"  # the recorder's, needs no lease
     START_CALIBRATION = "start_calibration"  # name: TARGET, or TARGET from RECORDING; the calibrator's, needs no lease

@@ -2,6 +2,7 @@
 import { Reading } from "../components/Reading";
 import { UNKNOWN, fixed } from "../components/format";
 import { useLatest } from "../console/useLatest";
+import { LookClosely } from "./LookClosely";
 
 const KEY = "tele/adaptation";
 
@@ -20,6 +21,7 @@ export function GroundReadings() {
       <Reading label="Source" source={KEY} value={report?.source ?? UNKNOWN}>
         <span className="unit">confidence {fixed(report?.desired.confidence, 2)}</span>
       </Reading>
+      <LookClosely />
     </div>
   );
 }

@@ -20,11 +20,18 @@ export function holdsControl(state: ConsoleState): boolean {
   return level === "live" || level === "stale";
 }
 
-/** Why a command can not be given now, in words; null when it can. */
-export function hindrance(state: ConsoleState, command: CommandName): string | null {
+/** Why nothing at all can be asked of the robot now, in words; null when it can. */
+export function unreachable(state: ConsoleState): string | null {
   if (state.connection !== "open") return "the console is unreachable";
   if (selectedRobot(state) === undefined) return "no robot is selected";
   if (selectedRobot(state)?.alive === false) return "the robot is silent";
+  return null;
+}
+
+/** Why a command can not be given now, in words; null when it can. */
+export function hindrance(state: ConsoleState, command: CommandName): string | null {
+  const silence = unreachable(state);
+  if (silence !== null) return silence;
   if (!holdsControl(state)) return "take control first";
   const mode = latest(state, "state/mode")?.value;
   if (mode === undefined) return "the robot has not told its state yet";

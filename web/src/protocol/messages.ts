@@ -38,6 +38,7 @@ export const COMMAND_NAMES = [
   "move_joint",
   "place_foot",
   "set_posing",
+  "look_closely",
   "start_recording",
   "stop_recording",
   "start_calibration",

@@ -1,0 +1,28 @@
+/** Asks for the next picture in full resolution: the ground ahead finer and surer, in the map. Needs no control. */
+import { Button } from "@mantine/core";
+import { useState } from "react";
+import { command } from "../console/commands";
+import { unreachable } from "../console/control";
+import { useConsole } from "../console/store";
+
+export function LookClosely() {
+  const hindrance = useConsole(unreachable);
+  const [waiting, setWaiting] = useState(false);
+  const look = async () => {
+    setWaiting(true);
+    await command("look_closely");
+    setWaiting(false);
+  };
+  return (
+    <Button
+      variant="default"
+      size="xs"
+      loading={waiting}
+      disabled={hindrance !== null}
+      title={hindrance ?? "One picture at full resolution into the map"}
+      onClick={() => void look()}
+    >
+      Look closely
+    </Button>
+  );
+}
