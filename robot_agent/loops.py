@@ -13,6 +13,7 @@ from robot_agent.adaptation import ParameterOverrides
 from robot_agent.body import Body, JointTargets
 from robot_agent.commands import CommandDesk, Situation
 from robot_agent.felt_queue import Felt, FeltQueue
+from robot_agent.headway import Headway
 from robot_agent.mapping import TerrainMap
 from robot_agent.perception import CloseLook
 from robot_agent.pipeline import VisionPipeline, VisionTick, WalkPipeline, WalkTick
@@ -74,6 +75,7 @@ class WalkLoop:
         )
         self._telemetry = Telemetry(bus=bus, robot_id=robot_id, robot=robot, presence=presence, rate=CONTROL_RATE)
         self._meter = LoopMeter("walk", CONTROL_RATE)
+        self._headway = Headway()
         self._last_estimate: OdometryEstimate | None = None
         self._ticks = 0
         bus.subscribe(robot_id, topics.ODOMETRY, lambda _id, _key, message: self._odometry.put(message))
@@ -117,6 +119,7 @@ class WalkLoop:
             )
         if tick.route is not None and tick.route.hopeless:
             self.desk.give_up_mission(tick.route.waiting)
+        self._watch_headway(tick)
         if tick.verdict.action in (SafetyAction.SIT, SafetyAction.CUT):
             self.desk.withdraw_stand()
         x, y, _ = tick.state.world_from_body.position
@@ -140,6 +143,15 @@ class WalkLoop:
         if self._ticks % HEALTH_TICKS == 0:
             age = self._pipeline.odometry_age
             self._telemetry.publish_health(self._meter.report(tick.stamp_ns), sensed, self._last_estimate, age)
+
+    def _watch_headway(self, tick: WalkTick) -> None:
+        """Pause a mission on which the robot does not get on."""
+        if tick.follower is None or not tick.permission.walk:
+            self._headway.rest()
+        elif self._headway.stuck(tick.state.world_from_body, tick.stamp_ns):
+            self._headway.rest()
+            why = ", ".join(tick.walk.reasons) or "something is in its way"
+            self.desk.give_up_mission(f"the robot does not get on ({why}); steer it free, then start again")
 
     def _halt(self, sensed: Proprioception) -> None:
         """Last act after an unexpected error: hold the joints where they are. Never raises."""

@@ -1,8 +1,13 @@
-"""From margins of stability to what is still allowed: warn, slow down, refuse to walk; with hysteresis."""
+"""From margins of stability to what is still allowed: warn, slow down, refuse to walk; with hysteresis.
+
+A body that rests does not tip over. Where its margins say that it should, they are wrong, for instance because a foot
+that bears little counts as none; what they lack is then added until they are good by themselves.
+"""
 
 from __future__ import annotations
 
 from functools import cache
+from math import isfinite
 
 import numpy as np
 
@@ -10,6 +15,7 @@ from weaver_shared.config.locomotion import StabilityConfig
 from weaver_shared.robots.gaits import Gait
 
 GOOD, WARN, SLOW, REFUSE = 0, 1, 2, 3
+NOTHING = (0.0, 0.0)
 LEVELS = ("good", "warn", "slow", "refuse")
 
 
@@ -25,13 +31,15 @@ class StabilityWatch:
 
     def clear(self) -> None:
         self._level = GOOD
+        self._rested = 0.0  # s
+        self._missing = NOTHING  # m, of the static and the energy margin of a body that rests
         self._low_for = [0.0, 0.0, 0.0]
         self._good_for = 0.0
 
     @property
     def idle(self) -> bool:
         """Whether margins above `warn` would change nothing."""
-        return self._level == GOOD and not any(self._low_for)
+        return self._level == GOOD and self._missing == NOTHING and not any(self._low_for)
 
     @property
     def calm(self) -> bool:
@@ -52,8 +60,10 @@ class StabilityWatch:
         texts = ("little stability", "little stability: walking slower", "too little stability to walk")
         return (texts[self._level - 1],) if self._level else ()
 
-    def update(self, static: float, energy: float) -> None:
-        """Take this tick's margins, m."""
+    def update(self, static: float, energy: float, *, resting: bool = False) -> None:
+        """Take this tick's margins, m; `resting`: the body stands, with no foot in the air."""
+        if self._level == REFUSE or self._missing != NOTHING:
+            static, energy = self._put_right(static, energy, resting)
         if self._level == GOOD and static >= self._static[0] and energy >= self._energy[0]:
             self._low_for[:] = (0.0, 0.0, 0.0)  # the usual case, in short
             return
@@ -67,6 +77,17 @@ class StabilityWatch:
         self._good_for = self._good_for + self._dt if self._recovered(static, energy) else 0.0
         if self._good_for >= self._config.hold_time:
             self._level, self._good_for = self._level - 1, 0.0
+
+    def _put_right(self, static: float, energy: float, resting: bool) -> tuple[float, float]:
+        """The margins with what they lack."""
+        if static >= self._static[0] and energy >= self._energy[0]:
+            self._missing = NOTHING
+        self._rested = self._rested + self._dt if resting and self._level == REFUSE else 0.0
+        if self._rested > self._config.rest_time and isfinite(static) and isfinite(energy):
+            # Enough to walk slowly.
+            self._missing = max(self._static[SLOW - 1] - static, 0.0), max(self._energy[SLOW - 1] - energy, 0.0)
+            self._rested = 0.0
+        return static + self._missing[0], energy + self._missing[1]
 
     def _recovered(self, static: float, energy: float) -> bool:
         config, index = self._config, self._level - 1

@@ -259,7 +259,8 @@ class Walker:
             watch.clear()
             return ()
         margins = self._state.record["answer"]
-        watch.update(float(margins["static_margin"]), float(margins["energy_margin"]))
+        resting = self._posture == "standing" and not self._in_air.any()
+        watch.update(float(margins["static_margin"]), float(margins["energy_margin"]), resting=resting)
         if watch.calm:
             return ()
         self._velocity *= watch.factor

@@ -10,7 +10,8 @@ positive to the left. With these axes two of the printed equations run away from
 - (5) alpha_d = alpha_k + arctan(-e / d) is right as printed.
 
 Where |e| exceeds R the lookahead d = sqrt(R^2 - e^2) is taken as zero: the robot heads straight for the line. V_x of
-(1) is further scaled by the cosine of the course error, so that a robot facing elsewhere turns before it walks.
+(1) is further scaled by the cosine of the course error and fades to nothing as that error grows, so that a robot facing
+elsewhere turns before it walks and stays near its path where that is narrow.
 Within R of the last waypoint, and where a waypoint was passed outside its circle, the robot walks straight at the
 point, in whatever direction of its body that is.
 """
@@ -92,7 +93,7 @@ class PathFollower:
         lookahead = sqrt(max(radius**2 - error**2, 0.0))
         course = segment.course - atan2(error, lookahead) if error else segment.course
         off_course = wrap_angle(course - yaw)
-        forward = config.forward_speed * ahead / hypot(ahead, lookahead) * max(cos(off_course), 0.0)
+        forward = config.forward_speed * ahead / hypot(ahead, lookahead) * self._share_ahead(off_course)
         heading_error = abs(wrap_angle(segment.course - yaw))
         side = 0.0
         if heading_error < config.side_angle:
@@ -113,6 +114,12 @@ class PathFollower:
         speed = min(largest, max(config.goal_gain * distance, config.slowest))
         rate = self._turn(bearing) if turn else 0.0
         return np.array([speed * cos(bearing), speed * sin(bearing), rate]), np.array(goal)
+
+    def _share_ahead(self, off_course: float) -> float:
+        """Of the forward speed, for a heading so far (rad) off the course."""
+        whole, none = self._config.turn_first
+        fade = min(max((none - abs(off_course)) / (none - whole), 0.0), 1.0)
+        return cos(off_course) * fade
 
     def _turn(self, angle: float) -> float:
         rate = self._config.turn_gain * angle

@@ -108,6 +108,54 @@ def test_the_level_follows_the_margins_and_comes_back_late():
     assert ticks * DT == pytest.approx(3.0 * CONFIG.hold_time, abs=4 * DT)
 
 
+def refused(static):
+    watch = StabilityWatch(CONFIG, DT)
+    for _ in range(5):
+        watch.update(static, 1.0)
+    assert watch.level == "refuse"
+    return watch
+
+
+def test_a_body_that_rests_may_walk_slowly_though_its_margins_say_that_it_tips_over():
+    low, ticks = CONFIG.refuse_static - 0.02, 0
+    watch = refused(low)
+    while watch.level == "refuse":
+        watch.update(low, 1.0, resting=True)
+        ticks += 1
+        assert ticks < 10_000
+    assert watch.level == "slow"
+    assert ticks * DT == pytest.approx(CONFIG.rest_time + CONFIG.hold_time, abs=4 * DT)
+    for _ in range(100):
+        watch.update(low, 1.0)  # walking, and no worse than at rest
+    assert watch.level == "slow"
+    for _ in range(5):
+        watch.update(low - 0.03, 1.0)
+    assert watch.level == "refuse"
+
+
+def test_a_body_that_moves_is_believed_to_tip_over():
+    watch = refused(CONFIG.refuse_static - 0.02)
+    for _ in range(1000):
+        watch.update(CONFIG.refuse_static - 0.02, 1.0)
+    assert watch.level == "refuse"
+    for _ in range(1000):
+        watch.update(float("nan"), 1.0, resting=True)
+    assert watch.level == "refuse"
+
+
+def test_what_margins_lacked_is_forgotten_once_they_are_good():
+    low = CONFIG.refuse_static - 0.02
+    watch = refused(low)
+    for _ in range(round(2.0 * (CONFIG.rest_time + CONFIG.hold_time) / DT)):
+        watch.update(low, 1.0, resting=True)
+    for _ in range(round(4.0 * CONFIG.hold_time / DT)):
+        watch.update(CONFIG.warn_static + CONFIG.recovery_static, 1.0)
+    assert watch.idle
+    for _ in range(5):
+        watch.update(low, 1.0)
+    assert watch.level == "refuse"
+
+
 def test_margins_between_threshold_and_recovery_keep_the_level():
     watch = StabilityWatch(CONFIG, DT)
     for _ in range(10):

@@ -10,6 +10,7 @@ class CommandLimits(BaseModel):
 
     waypoint_reach: float = 30.0  # farther from the robot than this is a slip of the hand
     waypoint_count: int = 100
+    stuck_seconds: float = 30.0  # without making way, after which a mission pauses
     teleop_silence: float = 0.3
     override_seconds: float = 3600.0
     cruise_seconds: float = 600.0

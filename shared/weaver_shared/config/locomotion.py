@@ -86,6 +86,7 @@ class StabilityConfig(BaseModel):
     hold_time: Positive = 0.5  # s for which they must have recovered
     dwell_time: Positive = 0.03  # s the margins must be low: one odd reading is no danger
     slow_factor: Fraction = 0.5  # of the wanted velocity, at the level `slow`
+    rest_time: Positive = 1.5  # s a body that may not walk has stood before its margins are put right
     lift_static: float = 0.025  # m that must be left before a leg is lifted for manipulation
 
 

@@ -15,8 +15,9 @@ class PathFollowerConfig(BaseModel):
     acceptance_radius: Positive = 0.5  # R
     forward_speed: Positive = 0.30  # V_x,max; the gait's own limits come on top
     side_speed: Positive = 0.10  # V_y,max
-    turn_gain: Positive = 0.8  # K_rot, 1/s
+    turn_gain: Positive = 1.2  # K_rot, 1/s
     turn_rate: Positive = 0.4
+    turn_first: tuple[Positive, Positive] = (0.5, 1.0)  # rad of course error from which V_x falls, and at which it is 0
     side_angle: Positive = 0.35  # alpha_e0, 20 degrees
     goal_radius: Positive = 0.10  # from the last waypoint, within which the mission is done
     goal_gain: Positive = 0.8  # 1/s, slows the last steps
