@@ -16,6 +16,7 @@ from robot_agent.odometry.landmarks import RIGHT, Eyes
 from robot_agent.odometry.leg_way import Way, guessed_way, joined, way_of
 from robot_agent.odometry.own_legs import OwnLegs
 from robot_agent.odometry.propagation import propagate
+from robot_agent.odometry.seen_motion import SeenMotion
 from robot_agent.odometry.start import Beginning, begin_again, begin_at_rest, begin_in_motion, is_still, levelled
 from robot_agent.odometry.tracks import Tracks
 from robot_agent.odometry.window import SlidingWindow
@@ -97,6 +98,7 @@ class StereoInertialOdometry:
         self._history: deque[Array] = deque()
         self._remembered = 0.0  # s, of the history
         self._flows: deque[float] = deque(maxlen=100)  # px, motion seen in the last pictures
+        self._seen_motion = SeenMotion(self._config.rest.seen_duration, calibration.left.fx)
         self._pending: list[Array] = []  # inertia since the window's newest frame
         self._pending_trusted = True
         self._pending_way: Way | None = None  # of the feet, likewise
@@ -181,6 +183,7 @@ class StereoInertialOdometry:
         """What was felt belongs to another clock."""
         self._stream = ImuStream(self._config.failure)
         self._feet = ContactStream(self._config.feet)
+        self._seen_motion.forget()
         self._history.clear()
         self._remembered = 0.0
         self._stamp = None
@@ -370,8 +373,11 @@ class StereoInertialOdometry:
         return np.concatenate(self._history)
 
     def _is_resting(self, tracks: Tracks, inertia: Inertia) -> bool:
+        assert self._stamp is not None
         self._flows.append(tracks.flow)
         still = self._seen_still()
+        if self._seen_motion.step(self._stamp, tracks) > self._config.rest.seen_motion:
+            return False
         if not inertia.trusted or (tracks.flow > self._config.rest.flow and not still):
             return False
         gyro_bias = self._window.frames.gyro_bias[self._window.newest]

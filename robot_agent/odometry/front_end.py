@@ -2,6 +2,10 @@
 
 Pictures stay raw, only points are undistorted. Every search starts where inertia and the last known depth say the
 feature went, so that small windows and few pyramid levels do.
+
+From picture to picture each search adds its small error to the last one's. Where the view hardly changes that is all
+that moves, so there a feature is looked for once more, from an earlier picture that is kept: errors do not add up, and
+a robot that sways on one spot stays there.
 """
 
 from __future__ import annotations
@@ -53,6 +57,8 @@ class FrontEnd:
         self._depth = np.zeros(0)  # m along the left optical axis, NaN unknown
         self._ground: Array | None = None  # inverse depth over the picture, from the newest matched pair
         self._predictable = False  # the last picture's features were where they were expected
+        self._kept: Picture | None = None  # an earlier picture of much the same view
+        self._kept_pixel = np.zeros((0, 2))  # of the tracks in that picture, NaN of those found later
 
     def step(self, frame: StereoFrame, left_from_previous: Pose, legs: OwnLegs | None = None) -> Tracks:
         """Follow features into `frame` and find new ones, none of them on the robot's own legs."""
@@ -63,7 +69,9 @@ class FrontEnd:
         right_problem = picture_problem(frame.right, self._right.width, self._right.height, self._config)
         left_cover, right_cover = (None if legs is None else legs.cover(eye) for eye in (self._left, self._right))
         flow = self._follow(frame.left, left_from_previous, left_cover)
+        self._find_from_kept(frame.left)
         self._refill(frame.left, left_cover)
+        self._keep_picture(frame.left)
         plane = normalise(self._left, self._pixel)
         observation = np.zeros((len(plane), 2, 2))
         observation[:, 0] = plane
@@ -88,11 +96,13 @@ class FrontEnd:
     def forget_all(self) -> None:
         self._keep(np.zeros(len(self._identity), dtype=np.bool_))
         self._previous = None
+        self._kept = None
         self._ground = None
         self._predictable = False
 
     def _keep(self, mask: Mask) -> None:
         self._identity, self._pixel, self._depth = self._identity[mask], self._pixel[mask], self._depth[mask]
+        self._kept_pixel = self._kept_pixel[mask]
 
     def _follow(self, picture: Picture, left_from_previous: Pose, cover: Cover | None) -> float:
         """Move all tracks into the new picture; median motion in px."""
@@ -133,6 +143,25 @@ class FrontEnd:
         found, tracked, error = _lucas_kanade(first, second, self._pixel, carried(back, guess), config.window, levels)
         return carried(warp, found), tracked, error
 
+    def _find_from_kept(self, picture: Picture) -> None:
+        """Put right what following from picture to picture has gathered since the kept one."""
+        known = np.isfinite(self._kept_pixel[:, 0])
+        if self._kept is None or not known.any():
+            return
+        rows = np.flatnonzero(known)
+        found, tracked, _ = _lucas_kanade(
+            self._kept, picture, self._kept_pixel[rows], self._pixel[rows], self._config.window, 0
+        )
+        near = np.linalg.norm(found - self._pixel[rows], axis=1) < self._config.largest_correction
+        self._pixel[rows[tracked & near]] = found[tracked & near]
+
+    def _keep_picture(self, picture: Picture) -> None:
+        """Keep this picture instead, once the view has changed or most of its features are gone."""
+        known = np.isfinite(self._kept_pixel[:, 0])
+        change = _median_distance(self._pixel, self._kept_pixel, known)
+        if not (change < self._config.same_view) or 2 * int(known.sum()) < len(known):
+            self._kept, self._kept_pixel = picture, self._pixel.copy()
+
     def _refill(self, picture: Picture, cover: Cover | None) -> None:
         if len(self._pixel) > 0.92 * self._config.features:
             return
@@ -142,6 +171,7 @@ class FrontEnd:
         self._identity = np.concatenate([self._identity, identities])
         self._pixel = np.concatenate([self._pixel, corners])
         self._depth = np.concatenate([self._depth, np.full(len(corners), np.nan)])
+        self._kept_pixel = np.concatenate([self._kept_pixel, np.full((len(corners), 2), np.nan)])
 
     def _match(self, left: Picture, right: Picture, plane: Array, cover: Cover | None) -> tuple[Array, Mask]:
         """Find the tracks, at `plane` (n, 2) in the left eye, in the right one: where, and which are good."""

@@ -46,7 +46,12 @@ def test_legs_out_of_sight_cover_nothing(robot: RobotDescription, calibration: S
     joints = _standing_joints(robot)
     legs = OwnLegs.of(
         robot,
-        LegBatch(stamp_ns=np.array([0]), joint_position=joints[None], foot_contact=np.ones((1, 6), dtype=np.bool_)),
+        LegBatch(
+            stamp_ns=np.array([0]),
+            joint_position=joints[None],
+            joint_torque=np.zeros((1, robot.joint_count)),
+            foot_contact=np.ones((1, 6), dtype=np.bool_),
+        ),
     )
     assert legs is not None
     assert legs.joint_in_body[:, -1] == pytest.approx(robot.stance_in_body, abs=0.02)

@@ -25,6 +25,8 @@ class FrontEndConfig(_Model):
     levels: Count = 3  # of the pyramid above the picture itself, while nobody knows where to look
     predicted_levels: Count = 1  # once predictions have proved right
     surprise: Positive = 3.0  # px, median error of the prediction that makes it wrong
+    same_view: Positive = 12.0  # px, median motion of the features up to which an earlier picture is searched from
+    largest_correction: Positive = 1.0  # px; a feature found farther off from there is another one
     epipolar_gate: Positive = 1.5  # px
     nearest: Positive = 0.15  # m, stereo matches closer than this are wrong
     dark_mean: Positive = 8.0  # a picture whose mean is below is black
@@ -70,6 +72,8 @@ class RestConfig(_Model):
     shaken_gyro_deviation: Positive = 0.15  # rad/s, likewise of a body that stands but trembles (motors, rotors)
     shaken_accel_deviation: Positive = 2.0  # m/s^2
     flow: Positive = 0.35  # px, median between frames
+    seen_duration: Positive = 0.6  # s over which the view must not have moved either
+    seen_motion: Positive = 0.3  # px, median over that time
     velocity_sigma: Positive = 0.003  # m/s
     rotation_sigma: Positive = 3.0e-4  # rad against the previous frame
     position_sigma: Positive = 3.0e-4  # m against the previous frame
