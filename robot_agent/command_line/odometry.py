@@ -27,14 +27,14 @@ from robot_agent.evaluation.odometry_plots import draw
 from robot_agent.evaluation.robot_recording import RobotRecording, open_robot_recording
 from robot_agent.evaluation.track_recording import TrackRecording, open_tracks
 from robot_agent.evaluation.trajectory import Trajectory, evaluate, path_length, read_tum, write_tum
-from robot_agent.odometry import RecordedTracks, StereoInertialOdometry, warm_up
+from robot_agent.odometry import OwnLegs, RecordedTracks, StereoInertialOdometry, warm_up
 from robot_agent.recording import is_recording
 from robot_agent.vision.camchain import read_camchain_on_imu
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.odometry import FailureConfig, FeetConfig, OdometryConfig, StartConfig, WindowConfig
 from weaver_shared.errors import InputError
 from weaver_shared.foot_contacts import FootContacts
-from weaver_shared.messages import OdometryEstimate, OdometryQuality
+from weaver_shared.messages import OdometryEstimate, OdometryQuality, StereoFrame
 from weaver_shared.transforms import Pose, rotation_log
 
 
@@ -202,9 +202,16 @@ def _run(
         contacts = rest[0] if rest else felt
         felt = None  # the stream keeps all there is for the pictures to come
         begin = time.process_time()
-        estimates.append(odometry.step(frame, inertia, contacts))
+        estimates.append(odometry.step(frame, inertia, contacts, _legs_in(recording, frame)))
         milliseconds.append(1e3 * (time.process_time() - begin))
     return estimates, milliseconds
+
+
+def _legs_in(recording: Recording, frame: StereoFrame) -> OwnLegs | None:
+    """The robot's own legs as they were when a pair was taken; only its own recordings tell."""
+    if not isinstance(recording, RobotRecording):
+        return None
+    return OwnLegs.of(recording.recording.robot, recording.legs_up_to(frame.stamp_ns))
 
 
 def _feet_of(recording: Recording, options: argparse.Namespace) -> FootContacts | None:

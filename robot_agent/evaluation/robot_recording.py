@@ -21,6 +21,9 @@ from weaver_shared.messages import ImuBatch, Proprioception, StereoFrame, TruthS
 from weaver_shared.robots.description import Imu
 from weaver_shared.transforms import Pose
 
+OLDEST_NS = 100_000_000
+"""Of a reading of the legs that still tells where they are in a picture."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RobotRecording:
@@ -30,6 +33,7 @@ class RobotRecording:
     imu: Imu
     body_from_imu: Pose
     inertia: ImuBatch
+    legs: LegBatch
     contacts: FootContacts | None
     truth: Trajectory | None
     picture_ns: NDArray[np.int64]  # (n,) stamps of the pairs
@@ -44,6 +48,16 @@ class RobotRecording:
         frames = self.recording.messages(topics.STEREO)
         for (_, _, frame), part in zip(frames, parts, strict=True):
             yield frame, part
+
+    def legs_up_to(self, stamp_ns: int) -> LegBatch:
+        """The newest reading of the legs when a picture was taken; none where it is older than OLDEST_NS."""
+        end = int(np.searchsorted(self.legs.stamp_ns, stamp_ns, side="right"))
+        begin = max(end - 1, int(np.searchsorted(self.legs.stamp_ns, stamp_ns - OLDEST_NS)))
+        return LegBatch(
+            stamp_ns=self.legs.stamp_ns[begin:end],
+            joint_position=self.legs.joint_position[begin:end],
+            foot_contact=self.legs.foot_contact[begin:end],
+        )
 
 
 def open_robot_recording(path: Path) -> RobotRecording:
@@ -68,12 +82,14 @@ def open_robot_recording(path: Path) -> RobotRecording:
     if len(inertia.stamp_ns) < 2:
         raise InputError(f"{path} has no inertial samples")
     robot = recording.robot
+    legs = LegBatch.of(sorted(felt, key=lambda sensed: sensed.stamp_ns))
     return RobotRecording(
         calibration=StereoCalibration.of_robot(robot),
         imu=robot.imu,
         body_from_imu=robot.imu.body_from_imu,
         inertia=inertia,
-        contacts=FootContacts.of(robot, LegBatch.of(felt)),
+        legs=legs,
+        contacts=FootContacts.of(robot, legs),
         truth=_trajectory(truth),
         picture_ns=np.array(stamps, dtype=np.int64),
         recording=recording,

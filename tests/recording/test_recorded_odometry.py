@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,12 +16,14 @@ from made_up_recordings import write
 from robot_agent.command_line.odometry import main
 from robot_agent.evaluation.robot_recording import open_robot_recording
 from robot_agent.evaluation.trajectory import read_tum
-from robot_agent.felt_queue import Felt
-from robot_agent.odometry import StereoInertialOdometry
+from robot_agent.felt_queue import Felt, FeltQueue
+from robot_agent.odometry import OwnLegs, StereoInertialOdometry
 from robot_agent.recording import Recorder, RecordingWriter
 from robot_agent.vision.camera import StereoCalibration
 from sim_agent.lock_step import LockStep
 from sim_agent.worlds import make_world
+from weaver_shared import topics
+from weaver_shared.clock import SimulatedClock
 from weaver_shared.errors import InputError
 from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.messages import CommandName, OdometryEstimate, StereoFrame
@@ -83,6 +86,51 @@ def test_the_recorded_way_is_the_lived_one(
     assert report["ate_m"] < 0.003
     assert report["gravity_error_deg"] < 0.5
     assert read_tum(out).position == pytest.approx(np.array([e.position_in_world for e in expected]), abs=1e-6)
+
+
+def test_nothing_is_followed_on_the_robots_own_legs(
+    lived: tuple[Path, list[OdometryEstimate], list[OdometryEstimate]],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """The same ride, but told with the legs raised before the eyes."""
+    robot = load_robot()
+    raised = np.zeros((robot.leg_count, robot.joint_count // robot.leg_count))
+    raised[:, :3] = -0.6, 0.9, -1.2
+    writer = RecordingWriter(
+        tmp_path / "raised.mcap", robot_id="sim-1", robot=robot, clock=SimulatedClock(), started="now"
+    )
+    queue = FeltQueue()
+    masked = StereoInertialOdometry(
+        calibration=StereoCalibration.of_robot(robot), imu=robot.imu, initial=Pose.identity()
+    )
+    recording = open_robot_recording(lived[0])
+    inertia = iter(recording)
+    for _, _, message in recording.recording.messages(topics.STEREO, topics.PROPRIOCEPTION):
+        if isinstance(message, StereoFrame):
+            writer.write(topics.STEREO.key, message)
+            frame, samples = next(inertia)
+            expected = masked.step(frame, samples, None, OwnLegs.of(robot, queue.up_to(frame.stamp_ns).legs))
+        else:
+            sensed = replace(message, joint_position=raised.ravel())
+            writer.write(topics.PROPRIOCEPTION.key, sensed)
+            queue.add(sensed)
+    writer.close()
+    assert main([str(tmp_path / "raised.mcap"), "--json", "--quiet"]) == 0
+    found = json.loads(capsys.readouterr().out)["position_sigma"]
+    assert found == pytest.approx(np.sqrt(np.diag(expected.covariance)[3:]).tolist(), rel=1e-9)
+    assert found != pytest.approx(np.sqrt(np.diag(lived[1][-1].covariance)[3:]).tolist(), rel=1e-3)
+
+
+def test_legs_are_told_by_their_newest_reading(
+    lived: tuple[Path, list[OdometryEstimate], list[OdometryEstimate]],
+) -> None:
+    recording = open_robot_recording(lived[0])
+    stamp = int(recording.legs.stamp_ns[5])
+    assert recording.legs_up_to(stamp).stamp_ns.tolist() == [stamp]
+    assert recording.legs_up_to(stamp + 1).joint_position == pytest.approx(recording.legs.joint_position[5:6])
+    assert not recording.legs_up_to(int(recording.legs.stamp_ns[0]) - 1).stamp_ns.size
+    assert not recording.legs_up_to(int(recording.legs.stamp_ns[-1]) + 200_000_000).stamp_ns.size
 
 
 def test_inertia_comes_with_the_picture_it_leads_to(
