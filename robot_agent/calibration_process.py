@@ -1,73 +1,37 @@
-"""The robot's calibrator: looks for the target in live or recorded pictures, guides who moves it, solves and saves."""
+"""The robot's calibrator: looks for the target in live or recorded pictures, guides who moves, solves and saves."""
 
 from __future__ import annotations
 
-import re
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
-import numpy as np
-
-from robot_agent.calibration.guidance import Wish
-from robot_agent.calibration.guided import GuidedCalibration, drawn
-from robot_agent.calibration.guided_results import figures, save, target_of
-from robot_agent.calibration.rig import Rig
+from robot_agent.calibration.guided_session import GuidedSession, Solved
+from robot_agent.calibration.session_orders import FILE, FOLDER, SessionOrder
+from robot_agent.calibration.session_sources import LiveSource, RecordedSource, SessionSource
+from robot_agent.calibration.session_state import RunningSession, state_of
 from robot_agent.recording import open_recording
 from robot_agent.recording.file_parts import file_part
-from robot_agent.vision.camera import StereoCalibration
 from robot_agent.waiting_orders import WaitingOrders
 from weaver_shared import topics
 from weaver_shared.bus import Bus
 from weaver_shared.errors import InputError, ResourceError, WeaverError
-from weaver_shared.latest import LatestSlot
-from weaver_shared.messages import (
-    Answer,
-    CalibrationState,
-    CalibrationWish,
-    CameraPicture,
-    Command,
-    CommandName,
-    StereoFrame,
-)
+from weaver_shared.messages import Answer, CameraPicture, Command, CommandName
 from weaver_shared.robots import RobotDescription
 
 CAMERA = "calibration"
-LOOK_EVERY_NS = 200_000_000
-"""Of the pictures' own time: five looks a second are enough for a hand, and leave the computer to the robot."""
+SHOW_EVERY_NS = 200_000_000
+"""Of the pictures' own time, between two that people are shown."""
 
-_FILE = re.compile(r"[A-Za-z0-9_-]{1,80}/(camchain\.yaml|target\.yaml|camera\.toml|report\.html|report\.md)")
-_RECORDING = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9_.-]{0,100}\.mcap")
-
-
-@dataclass(slots=True, kw_only=True)
-class _Result:
-    verdict: str
-    usable: bool = False
-    lines: tuple[str, ...] = ()
-    files: tuple[str, ...] = ()
-
-
-@dataclass(slots=True, kw_only=True)
-class _Running:
-    """A calibration under way; `bus` is an ear for live pictures, `frames` are those of a recording."""
-
-    guided: GuidedCalibration
-    source: str
-    bus: Bus | None = None
-    frames: Iterator[StereoFrame] | None = None
-    newest: LatestSlot[StereoFrame] = field(default_factory=LatestSlot)
-    looked_ns: int = -LOOK_EVERY_NS
-    step: str = ""
-    solving: Future[_Result] | None = None
-    result: _Result | None = None
+MOST_OFFERED = 20
+"""Calibrations of cameras to go on from, the newest."""
 
 
 class CalibrationProcess:
-    """`turn` does the work but for solving, which a thread does meanwhile."""
+    """`turn` does the work but for loading what is heavy and for solving, which a thread does meanwhile."""
 
     def __init__(
         self,
@@ -88,10 +52,11 @@ class CalibrationProcess:
         self._folder = folder
         self._wall_time = wall_time
         self._orders = WaitingOrders()
-        self._solver = ThreadPoolExecutor(1, thread_name_prefix="solve")
-        self._running: _Running | None = None
+        self._worker = ThreadPoolExecutor(1, thread_name_prefix="calibrate")
+        self._running: RunningSession | None = None
+        self._calibrations = _calibrations_in(folder)
         bus.answer_queries(robot_id, topics.CALIBRATOR_COMMANDS, self._orders.ask)
-        bus.answer_queries(robot_id, topics.CALIBRATION_PART, lambda request: file_part(self._folder, _FILE, request))
+        bus.answer_queries(robot_id, topics.CALIBRATION_PART, lambda request: file_part(self._folder, FILE, request))
         bus.announce(robot_id, "calibrator")
         self._tell()
 
@@ -104,22 +69,24 @@ class CalibrationProcess:
         """Carry out orders and look at one picture, waiting at most so many s for either."""
         self._orders.carry_out(self._carry_out)
         running = self._running
-        if running is None or running.result is not None:
+        if running is None or running.solved is not None:
             self._orders.wait(wait)
+        elif running.session is None:
+            self._await_start(running, wait)
         elif running.solving is not None:
-            self._await_solution(running, wait)
+            self._await_solution(running, running.solving, wait)
         else:
-            self._look(running, wait)
+            self._look(running, running.session, wait)
 
     def close(self) -> None:
         self._end()
-        self._solver.shutdown()
+        self._worker.shutdown()
 
     def _carry_out(self, command: Command) -> Answer:
         try:
             match command.command:
                 case CommandName.START_CALIBRATION:
-                    self._begin(command.name)
+                    self._begin(SessionOrder.of(command.name))
                 case CommandName.SOLVE_CALIBRATION:
                     self._solve(command.name or "radtan")
                 case CommandName.END_CALIBRATION:
@@ -132,131 +99,114 @@ class CalibrationProcess:
             self._tell()
         return Answer(accepted=True, reason="")
 
-    def _begin(self, name: str) -> None:
-        text, _, recorded = name.partition(" from ")
-        target = target_of(text)
+    def _begin(self, order: SessionOrder) -> None:
         if self._running is not None and self._running.solving is not None:
             raise ResourceError("a calibration is being solved; wait for it")
-        robot, frames = self._robot, None
-        if recorded:
-            if not _RECORDING.fullmatch(recorded):
-                raise InputError(f"{recorded!r:.60} is not the name of a recording")
-            recording = open_recording(self._recordings / recorded)
-            robot = recording.robot
-            frames = (frame for _, _, frame in recording.messages(topics.STEREO))
+        recording = open_recording(self._recordings / order.recording) if order.recording else None
+        robot = self._robot if recording is None else recording.robot
         if not robot.has_camera:
             raise InputError(f"the robot {robot.name!r} has no camera")
-        pair = StereoCalibration.of_robot(robot)
+        if order.lenses and not (self._folder / order.lenses / "camchain.yaml").is_file():
+            raise InputError(f"there is no calibration of cameras named {order.lenses}")
         self._end()
-        running = _Running(
-            guided=GuidedCalibration(target, Rig.of((pair.left, pair.right))),
-            source=recorded or "cameras",
-            frames=frames,
+        inertia = order.part == "imu"
+        source: SessionSource = (
+            LiveSource(self._open_bus(), self._robot_id, inertia=inertia)
+            if recording is None
+            else RecordedSource(recording, inertia=inertia)
         )
-        if not recorded:
-            running.bus = self._open_bus()
-            running.bus.subscribe(self._robot_id, topics.STEREO, lambda _id, _key, frame: running.newest.put(frame))
-        self._running = running
+        starting = self._worker.submit(_begun, order, robot, self._folder)
+        self._running = RunningSession(order=order, source=source, starting=starting)
 
-    def _look(self, running: _Running, wait: float) -> None:
-        frame = running.newest.take(wait) if running.frames is None else next(running.frames, None)
-        if frame is None:
-            if running.frames is not None:
-                self._orders.wait(wait)  # all of the recording was looked at
+    def _await_start(self, running: RunningSession, wait: float) -> None:
+        if not running.starting.done():
+            self._orders.wait(wait)
             return
-        if 0 <= frame.stamp_ns - running.looked_ns < LOOK_EVERY_NS:
-            return
-        running.looked_ns = frame.stamp_ns
         try:
-            running.guided.look(frame)
+            running.session = running.starting.result()
         except WeaverError as error:
-            running.result = _Result(verdict=str(error))
-        else:
-            jpeg = drawn(frame, running.guided.sightings)
-            picture = CameraPicture(stamp_ns=frame.stamp_ns, name=CAMERA, jpeg=jpeg)
-            self._bus.publish(self._robot_id, topics.CAMERA, picture, name=CAMERA)
+            running.solved = Solved(verdict=str(error))
         self._tell()
+
+    def _look(self, running: RunningSession, session: GuidedSession, wait: float) -> None:
+        if running.source.ended:
+            self._orders.wait(wait)
+            return
+        try:
+            frame = running.source.take(session.feel, wait)
+            if frame is None or 0 <= frame.stamp_ns - running.looked_ns < session.look_every_ns:
+                if running.source.ended:
+                    self._tell()
+                return
+            running.looked_ns = frame.stamp_ns
+            session.look(frame)
+        except WeaverError as error:
+            running.solved = Solved(verdict=str(error))
+            self._tell()
+            return
+        if not 0 <= frame.stamp_ns - running.shown_ns < SHOW_EVERY_NS:
+            running.shown_ns = frame.stamp_ns
+            picture = CameraPicture(stamp_ns=frame.stamp_ns, name=CAMERA, jpeg=session.drawn(frame))
+            self._bus.publish(self._robot_id, topics.CAMERA, picture, name=CAMERA)
+            self._tell()
 
     def _solve(self, model: str) -> None:
         running = self._running
-        if running is None or running.solving is not None:
-            raise ResourceError("there is nothing to solve" if running is None else "it is being solved already")
+        if running is None or running.session is None:
+            raise ResourceError("there is nothing to solve" if running is None else "the calibration is only starting")
+        if running.solving is not None:
+            raise ResourceError("it is being solved already")
         if model not in ("radtan", "equidistant"):
             raise InputError(f"lens model {model!r:.40} is unknown; known are radtan and equidistant")
 
         def tell(step: str) -> None:
             running.step = step
 
-        running.result = None
-        running.solving = self._solver.submit(self._solved, running.guided, model, tell)
+        folder = self._folder / f"{self._robot_id}_{self._wall_time():%Y-%m-%d_%H-%M-%S}"
+        running.solved = None
+        running.solving = self._worker.submit(_solved, running.session, model, folder, tell)
 
-    def _await_solution(self, running: _Running, wait: float) -> None:
-        if running.solving is None:
-            return
+    def _await_solution(self, running: RunningSession, solving: Future[Solved], wait: float) -> None:
         before = running.step
-        if not running.solving.done():
+        if not solving.done():
             self._orders.wait(wait)
-        if running.solving.done():
-            running.result, running.solving = running.solving.result(), None
-        if running.result is not None or running.step != before:
+        if solving.done():
+            running.solved, running.solving = solving.result(), None
+            self._calibrations = _calibrations_in(self._folder)
+        if running.solved is not None or running.step != before:
             self._tell()
-
-    def _solved(self, guided: GuidedCalibration, model: str, tell: Callable[[str], None]) -> _Result:
-        """Solves and saves, on a thread of its own."""
-        try:
-            estimate, wished, verdict = guided.solve("equidistant" if model == "equidistant" else "radtan", tell)
-            name = f"{self._robot_id}_{self._wall_time():%Y-%m-%d_%H-%M-%S}"
-            save(guided, estimate, wished, verdict, self._folder / name)
-        except WeaverError as error:
-            return _Result(verdict=str(error))
-        except OSError as error:
-            return _Result(verdict=f"the results can not be saved: {error}")
-        files = sorted(path.name for path in (self._folder / name).iterdir())
-        return _Result(
-            verdict=str(verdict),
-            usable=verdict.usable,
-            lines=tuple(figures(estimate)),
-            files=tuple(f"{name}/{file}" for file in files),
-        )
 
     def _end(self) -> None:
         running, self._running = self._running, None
-        if running is not None and running.bus is not None:
-            running.bus.close()
+        if running is not None:
+            running.source.close()
 
     def _tell(self) -> None:
-        running = self._running
-        guided = running.guided if running is not None else None
-        result = (running.result if running is not None else None) or _Result(verdict="")
-        state = CalibrationState(
-            phase=_phase(running),
-            source=running.source if running is not None else "",
-            target=str(guided.target) if guided is not None else "",
-            pictures=guided.pictures if guided is not None else 0,
-            views=guided.views if guided is not None else 0,
-            seen=tuple(len(s) if s else 0 for s in guided.sightings) if guided is not None else (),
-            cover=guided.cover() if guided is not None else np.zeros((0, 6, 8), dtype=np.int64),
-            wishes=tuple(_wish(wish) for wish in guided.wishes()) if guided is not None else (),
-            advice=guided.advice() if guided is not None else "",
-            step=running.step if running is not None else "",
-            usable=result.usable,
-            verdict=result.verdict,
-            results=result.lines,
-            files=result.files,
-            folder=str(self._folder.absolute()),
-        )
+        state = state_of(self._running, self._calibrations, str(self._folder.absolute()))
         self._bus.publish(self._robot_id, topics.CALIBRATION, state)
 
 
-def _phase(running: _Running | None) -> str:
-    if running is None:
-        return "idle"
-    if running.solving is not None:
-        return "solving"
-    if running.result is None:
-        return "looking"
-    return "solved" if running.result.files else "failed"
+def _begun(order: SessionOrder, robot: RobotDescription, calibrations: Path) -> GuidedSession:
+    """On the worker's thread: the first time this loads what an idle calibrator does without."""
+    from robot_agent.calibration.sessions import begin_session
+
+    return begin_session(order, robot, calibrations)
 
 
-def _wish(wish: Wish) -> CalibrationWish:
-    return CalibrationWish(what=wish.what, met=bool(wish.met), advice=wish.advice)
+def _solved(session: GuidedSession, model: str, folder: Path, tell: Callable[[str], None]) -> Solved:
+    """Solves and saves, on the worker's thread."""
+    try:
+        solved = session.solve(model, folder, tell)
+        names = sorted(path.name for path in folder.iterdir())
+    except WeaverError as error:
+        return Solved(verdict=str(error))
+    except OSError as error:
+        return Solved(verdict=f"the results can not be saved: {error}")
+    return replace(solved, files=tuple(f"{folder.name}/{name}" for name in names))
+
+
+def _calibrations_in(folder: Path) -> tuple[str, ...]:
+    """Of cameras, by their folders' names, the newest first."""
+    found = [path.parent for path in folder.glob("*/camchain.yaml") if FOLDER.fullmatch(path.parent.name)]
+    found.sort(key=lambda path: path.stat().st_mtime, reverse=True)
+    return tuple(path.name for path in found[:MOST_OFFERED])

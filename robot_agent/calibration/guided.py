@@ -4,33 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.calibration.camera_calibration import calibrate_cameras, locate_views
 from robot_agent.calibration.guidance import Wish, cover_of, wishes
-from robot_agent.calibration.looking import detector_of
+from robot_agent.calibration.looking import LEAST_CORNERS, called, detector_of, sized
 from robot_agent.calibration.rig import Rig
 from robot_agent.calibration.rig_batch import RigEstimate
-from robot_agent.calibration.sightings import Picture, Session, Sighting, View
+from robot_agent.calibration.sightings import Session, Sighting, View
 from robot_agent.calibration.target import Target
 from robot_agent.calibration.verdicts import Verdict, judge_cameras
 from robot_agent.vision.camera import Distortion
-from weaver_shared.errors import InputError
 from weaver_shared.messages import StereoFrame
 from weaver_shared.transforms import Pose, rotation_log
 
 MOST_VIEWS = 80
-LEAST_CORNERS = 16
-"""In the better eye; fewer say little."""
-
 ANOTHER_TURN = np.radians(7.0)
 ANOTHER_WAY = 0.07
 """Of the distance to the target: a view is another one when it differs by this much from every one that was kept."""
-
-MARK = (80, 220, 80)  # BGR
-EYE_SIZE = (320, 240)  # px of an eye in the picture for people
 
 
 class GuidedCalibration:
@@ -57,8 +49,8 @@ class GuidedCalibration:
         """Look for the target; whether the view was kept. Raises InputError for pictures of another size."""
         self.pictures += 1
         self.sightings = tuple(
-            self._detector.detect(self._checked(picture, eye)) if picture.size else None
-            for eye, picture in enumerate((frame.left, frame.right))
+            self._detector.detect(sized(picture, size, "the robot's description")) if picture.size else None
+            for picture, size in zip((frame.left, frame.right), self._guess.sizes, strict=True)
         )
         view = View(stamp_ns=frame.stamp_ns, eyes=self.sightings, name=f"picture {frame.sequence}")
         if len(self._views) >= MOST_VIEWS or max(len(s) if s else 0 for s in self.sightings) < LEAST_CORNERS:
@@ -82,7 +74,7 @@ class GuidedCalibration:
         """What to do next, in words."""
         seen = max(len(s) if s else 0 for s in self.sightings)
         if self.pictures and seen == 0:
-            return f"bring the target into the picture: looking for an {self.target}"
+            return f"bring the target into the picture: looking for {called(self.target)}"
         if self.pictures and seen < LEAST_CORNERS:
             return f"show more of the target: {seen} corners are seen, {LEAST_CORNERS} are needed"
         missing = next((wish.advice for wish in self.wishes() if not wish.met), "")
@@ -96,33 +88,6 @@ class GuidedCalibration:
         estimate = calibrate_cameras(session, self.target, model, tell)
         wished = wishes(session, estimate.first_from_target)
         return estimate, wished, judge_cameras(estimate, wished)
-
-    def _checked(self, picture: Picture, eye: int) -> Picture:
-        height, width = picture.shape
-        if (width, height) != self._guess.sizes[eye]:
-            expected = self._guess.sizes[eye]
-            raise InputError(
-                f"the pictures are {width} x {height} px, the robot's description says {expected[0]} x {expected[1]}"
-            )
-        return picture
-
-
-def drawn(frame: StereoFrame, sightings: tuple[Sighting | None, ...]) -> bytes:
-    """Both eyes beside each other with the found corners marked, as JPEG for people."""
-    eyes = []
-    for picture, sighting in zip((frame.left, frame.right), sightings, strict=True):
-        width, height = EYE_SIZE
-        small = np.zeros((height, width), dtype=np.uint8)
-        if picture.size:
-            small = cv2.resize(picture, EYE_SIZE, interpolation=cv2.INTER_AREA)
-        colour = cv2.cvtColor(small, cv2.COLOR_GRAY2BGR)
-        if sighting is not None:
-            scale = np.array(EYE_SIZE) / picture.shape[::-1]
-            for x, y in np.rint(16.0 * sighting.pixels * scale).astype(int):
-                cv2.circle(colour, (int(x), int(y)), 16 * 3, MARK, 1, cv2.LINE_AA, shift=4)
-        eyes.append(colour)
-    _, encoded = cv2.imencode(".jpg", np.hstack(eyes), [cv2.IMWRITE_JPEG_QUALITY, 75])
-    return bytes(encoded)
 
 
 def _differs(pose: Pose, known: Pose) -> bool:

@@ -1,4 +1,4 @@
-"""What a guided calibration is told and what it leaves: a target in one line, figures in words, files in a folder."""
+"""What a guided calibration of the cameras leaves: figures in words, files in a folder."""
 
 from __future__ import annotations
 
@@ -13,30 +13,7 @@ from robot_agent.calibration.kalibr_files import write_camchain, write_target
 from robot_agent.calibration.report import camera_sections, write_report
 from robot_agent.calibration.rig_batch import RigEstimate
 from robot_agent.calibration.robot_camera import camera_table
-from robot_agent.calibration.target import AprilGrid, Checkerboard, Target
 from robot_agent.calibration.verdicts import Verdict
-from weaver_shared.errors import InputError
-
-SYNTAX = (
-    "aprilgrid COLUMNS ROWS TAG_SIZE SPACING or checkerboard COLUMNS ROWS SQUARE_SIZE, sizes in m, spacing over tag "
-    "size; such as aprilgrid 6 6 0.088 0.3"
-)
-
-
-def target_of(text: str) -> Target:
-    """A target from its name and numbers. Raises InputError that says how it is written."""
-    kind, *numbers = text.split() or [""]
-    try:
-        values = [float(number) for number in numbers]
-    except ValueError:
-        values = []
-    if kind == "aprilgrid" and len(values) == 4:
-        return AprilGrid(columns=int(values[0]), rows=int(values[1]), tag_size=values[2], spacing=values[3])
-    if kind == "checkerboard" and len(values) == 3:
-        return Checkerboard(
-            columns=int(values[0]), rows=int(values[1]), column_spacing=values[2], row_spacing=values[2]
-        )
-    raise InputError(f"{text!r:.60} is no target; write {SYNTAX}")
 
 
 def save(guided: GuidedCalibration, estimate: RigEstimate, wished: list[Wish], verdict: Verdict, folder: Path) -> None:

@@ -6,7 +6,7 @@ instant, so that the delay between the clocks has a derivative like any other pa
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -75,6 +75,7 @@ class InertialEstimate:
     gravity_in_target: Array  # (3,) m/s^2
     gyro_bias: Array  # (3,) mean over the recording
     accel_bias: Array  # (3,)
+    bias_sigma: Array  # (6,) of both means, gyro first
     rotation_sigma: Array  # (3,) rad, about the camera's axes
     position_sigma: Array  # (3,) m, along the IMU's axes
     time_offset_sigma: float
@@ -89,11 +90,22 @@ class InertialEstimate:
 
 
 def calibrate_imu(
-    rig: Rig, views: Sequence[View], target: Target, inertia: ImuBatch, imu: Imu, *, knots_per_second: float = 50.0
+    rig: Rig,
+    views: Sequence[View],
+    target: Target,
+    inertia: ImuBatch,
+    imu: Imu,
+    *,
+    knots_per_second: float = 50.0,
+    tell: Callable[[str], None] = lambda _: None,
 ) -> InertialEstimate:
-    """`rig` is known; raises InputError where pictures or samples are too few or do not belong together."""
+    """`rig` is known; raises InputError where pictures or samples are too few or do not belong together.
+
+    `tell` hears what is being done.
+    """
     if len(inertia.stamp_ns) < 100:
         raise InputError(f"the recording has {len(inertia.stamp_ns)} IMU samples; the camera-IMU part needs its IMU")
+    tell("places of the pictures")
     located, poses = locate_views(rig, views, target)
     if len(located) < 20:
         raise InputError(f"the target is in {len(located)} pictures; the camera-IMU part needs at least 20")
@@ -104,7 +116,8 @@ def calibrate_imu(
     during = (inertia.stamp_ns >= located[0].stamp_ns) & (inertia.stamp_ns <= located[-1].stamp_ns)
     if during.sum() < 100:
         raise InputError("pictures and IMU samples have no time in common: are they of one recording and one clock?")
-    check_excitation(inertia.angular_velocity_in_imu[during])
+    check_excitation(inertia.angular_velocity_in_imu[during], float(stamps[-1]))
+    tell("turn and delay")
     start = align(stamps, poses, seconds_of(inertia, origin_ns), inertia.angular_velocity_in_imu)
     batch = _Batch(
         rig,
@@ -118,7 +131,8 @@ def calibrate_imu(
         1.0 / knots_per_second,
     )
     trajectory = batch.first(poses, start)
-    trajectory = batch.solve(trajectory)
+    trajectory = batch.solve(trajectory, tell)
+    tell("how sure it is")
     return batch.estimate(trajectory, start)
 
 
@@ -178,10 +192,11 @@ class _Batch:
             biases=biases,
         )
 
-    def solve(self, trajectory: Trajectory) -> Trajectory:
+    def solve(self, trajectory: Trajectory, tell: Callable[[str], None]) -> Trajectory:
         damping = 1e-6
         equations = self._equations(trajectory)
-        for _ in range(MOST_STEPS):
+        for number in range(MOST_STEPS):
+            tell(f"all together, step {number + 1} of at most {MOST_STEPS}")
             while True:
                 step, border_step = _solve(equations, damping)
                 candidate = _moved(trajectory, step, border_step)
@@ -205,6 +220,7 @@ class _Batch:
         covariance = np.zeros_like(reduced)
         covariance[np.ix_(known, known)] = np.linalg.inv(reduced[np.ix_(known, known)])
         sigma = np.sqrt(np.diag(covariance))
+        nodes = covariance[BIASES:, BIASES:].reshape(self._nodes, 6, self._nodes, 6).mean(axis=(0, 2))
         # One step with the target's size unknown too: where it would go, and how sure.
         inverse = np.linalg.inv(reduced)
         return InertialEstimate(
@@ -213,6 +229,7 @@ class _Batch:
             gravity_in_target=trajectory.gravity,
             gyro_bias=trajectory.biases[:, :3].mean(axis=0),
             accel_bias=trajectory.biases[:, 3:].mean(axis=0),
+            bias_sigma=np.sqrt(np.diag(nodes)),
             rotation_sigma=sigma[TURN : TURN + 3],
             position_sigma=sigma[MOVE : MOVE + 3],
             time_offset_sigma=float(sigma[OFFSET]),

@@ -12,6 +12,9 @@ from robot_agent.calibration.sightings import Picture, Session, Sighting, View
 from robot_agent.calibration.target import AprilGrid, Target
 from weaver_shared.errors import InputError
 
+LEAST_CORNERS = 16
+"""Of a sighting that is worth keeping, in the better eye; fewer say little."""
+
 
 class Detector(Protocol):
     def detect(self, picture: Picture) -> Sighting | None: ...
@@ -21,14 +24,24 @@ def detector_of(target: Target) -> Detector:
     return GridDetector(target) if isinstance(target, AprilGrid) else ChessboardDetector(target)
 
 
+def called(target: Target) -> str:
+    return f"an {target}" if isinstance(target, AprilGrid) else f"a {target}"
+
+
+def sized(picture: Picture, size: tuple[int, int], told_by: str) -> Picture:
+    """The picture itself. Raises InputError where it is not of the `size` (width, height) that `told_by` tells."""
+    height, width = picture.shape
+    if (width, height) != size:
+        raise InputError(f"the pictures are {width} x {height} px, {told_by} says {size[0]} x {size[1]}")
+    return picture
+
+
 def look(source: Pictures, target: Target, progress: Callable[[int], None] = lambda _: None) -> Session:
     """Every view with the target in at least one eye. Raises InputError where it is in none."""
     views = tuple(view for view in _views(source, target, progress) if view.seen > 0)
     if not views:
         raise InputError(
-            f"no target found in any of the {len(source)} pictures of {source.folder}: looked for an {target}"
-            if isinstance(target, AprilGrid)
-            else f"no target found in any of the {len(source)} pictures of {source.folder}: looked for a {target}"
+            f"no target found in any of the {len(source)} pictures of {source.folder}: looked for {called(target)}"
         )
     return Session(views=views, sizes=source.sizes(), pictures=len(source))
 

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
+from robot_agent.calibration.instants import at_instants
 from robot_agent.calibration.sightings import Picture
 from robot_agent.recording import Recording, open_recording
 from weaver_shared import topics
@@ -71,18 +70,8 @@ def open_recorded_pictures(path: Path) -> RecordedPictures:
     samples = ImuBatch.join(inertia)
     return RecordedPictures(
         folder=path,
-        inertia=_at_instants(samples, recording.robot.imu.rate) if len(samples.stamp_ns) > 1 else None,
+        inertia=at_instants(samples, recording.robot.imu.rate) if len(samples.stamp_ns) > 1 else None,
         pairs=pairs,
         first_sizes=(sizes[0], sizes[1]),
         recording=recording,
-    )
-
-
-def _at_instants(means: ImuBatch, rate: float) -> ImuBatch:
-    """Means over the intervals that end at their stamps, as samples of the middles of these."""
-    stamps, order = np.unique(means.stamp_ns, return_index=True)
-    return ImuBatch(
-        stamp_ns=stamps - round(0.5e9 / rate),
-        angular_velocity_in_imu=means.angular_velocity_in_imu[order],
-        specific_force_in_imu=means.specific_force_in_imu[order],
     )

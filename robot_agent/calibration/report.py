@@ -176,8 +176,8 @@ def inertial_sections(estimate: InertialEstimate) -> list[Section]:
             rows=tuple(
                 (
                     axis,
-                    f"{estimate.gyro_bias[k]:.5f}",
-                    f"{estimate.accel_bias[k]:.4f}",
+                    f"{estimate.gyro_bias[k]:.5f} ± {estimate.bias_sigma[k]:.5f}",
+                    f"{estimate.accel_bias[k]:.4f} ± {estimate.bias_sigma[3 + k]:.4f}",
                     f"{estimate.gravity_in_target[k]:.4f}",
                 )
                 for k, axis in enumerate("xyz")

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import functools
+from typing import TYPE_CHECKING
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import cv2
 
 CODE_CELLS = 6
 BORDER_CELLS = 2
@@ -16,6 +19,8 @@ FAMILY_SIZE = 587
 
 @functools.cache
 def family() -> cv2.aruco.Dictionary:
+    import cv2  # only who looks for tags or prints them pays for it
+
     return cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_APRILTAG_36h11)
 
 

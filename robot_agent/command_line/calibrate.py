@@ -3,15 +3,8 @@
 from __future__ import annotations
 
 import argparse
+from importlib import import_module
 from pathlib import Path
-
-from robot_agent.command_line import (
-    calibrate_cameras,
-    calibrate_check,
-    calibrate_guide,
-    calibrate_imu,
-    calibrate_target,
-)
 
 EXAMPLES = """examples:
   weaver calibrate target --page a3 --out target.pdf
@@ -22,7 +15,8 @@ EXAMPLES = """examples:
 
 def main(arguments: list[str]) -> int:
     options = _parser().parse_args(arguments)
-    return int(options.run(options))
+    # Each part loads what it needs: the guide, which waits beside every robot, needs little.
+    return int(import_module(f"robot_agent.command_line.calibrate_{options.part}").run(options))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -42,7 +36,7 @@ def _parser() -> argparse.ArgumentParser:
     target.add_argument("--size", type=float, help="of a tag or square, m (default: the largest that fits)")
     target.add_argument("--spacing", type=float, default=0.3, help="gap between tags over their size (default 0.3)")
     target.add_argument("--page", default="a4", help="a4, a3, a2, a1, a0 or letter (default a4)")
-    target.set_defaults(run=calibrate_target.run)
+    target.set_defaults(part="target")
 
     cameras = parts.add_parser("cameras", help="lenses and the eyes' places, from pictures or a recording")
     _add_source(cameras)
@@ -54,7 +48,7 @@ def _parser() -> argparse.ArgumentParser:
         "--watch", type=float, metavar="SECONDS", help="look for new pictures until nothing is missing, at most so long"
     )
     _add_output(cameras)
-    cameras.set_defaults(run=calibrate_cameras.run)
+    cameras.set_defaults(part="cameras")
 
     imu = parts.add_parser("imu", help="where the IMU is from the cameras, and how late; from a recording with both")
     _add_source(imu)
@@ -62,7 +56,7 @@ def _parser() -> argparse.ArgumentParser:
     imu.add_argument("--imu", type=Path, required=True, help="imu.yaml: rate (Hz) and noise densities (SI)")
     imu.add_argument("--knots", type=float, default=50.0, help="of the trajectory's spline, per second (default 50)")
     _add_output(imu)
-    imu.set_defaults(run=calibrate_imu.run)
+    imu.set_defaults(part="imu")
 
     check = parts.add_parser("check", help="whether a camchain.yaml still fits the cameras")
     _add_source(check)
@@ -70,9 +64,9 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument("--views", type=int, default=60, help="used of a long recording (default 60)")
     check.add_argument("--quiet", action="store_true", help="no progress bar")
     check.add_argument("--json", action="store_true", help="print one JSON object")
-    check.set_defaults(run=calibrate_check.run)
+    check.set_defaults(part="check")
 
-    guide = parts.add_parser("guide", help="wait for the console's page, which leads through calibrating the cameras")
+    guide = parts.add_parser("guide", help="wait for the console's page, which leads through a calibration")
     guide.add_argument("--folder", type=Path, default=Path("calibrations"), help="where results go")
     guide.add_argument(
         "--recordings", type=Path, default=Path("recordings"), help="those that may be looked at instead"
@@ -80,7 +74,7 @@ def _parser() -> argparse.ArgumentParser:
     guide.add_argument("--robot-id", default="sim-1", help="name of the robot on the bus")
     guide.add_argument("--robot", default="weaver", help="robot description: a shipped name or a TOML file")
     guide.add_argument("--connect", default="tcp/127.0.0.1:7447", help="bus endpoints to join, comma-separated")
-    guide.set_defaults(run=calibrate_guide.run)
+    guide.set_defaults(part="guide")
     return parser
 
 

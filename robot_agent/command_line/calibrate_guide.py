@@ -7,8 +7,6 @@ import signal
 import threading
 from datetime import datetime
 
-import cv2
-
 from robot_agent.calibration_process import CalibrationProcess
 from weaver_shared.bus import ZenohBus
 from weaver_shared.robots import load_robot
@@ -16,7 +14,6 @@ from weaver_shared.robots import load_robot
 
 def run(options: argparse.Namespace) -> int:
     robot = load_robot(options.robot)
-    cv2.setNumThreads(1)
     ended = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: ended.set())

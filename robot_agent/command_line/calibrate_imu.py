@@ -34,7 +34,12 @@ def run(options: argparse.Namespace) -> int:
     session = look_with_progress(options, target)
     if not options.quiet:
         print(f"{len(session.views)} of {session.pictures} views show the target; solving", file=sys.stderr)
-    estimate = calibrate_imu(rig, session.views, target, source.inertia, imu, knots_per_second=options.knots)
+
+    def tell(step: str) -> None:
+        if not options.quiet:
+            print(step, file=sys.stderr)
+
+    estimate = calibrate_imu(rig, session.views, target, source.inertia, imu, knots_per_second=options.knots, tell=tell)
     verdict = judge_imu(estimate)
     folder = output_folder(options)
     camera_from_imu = estimate.imu_from_camera.inverse()

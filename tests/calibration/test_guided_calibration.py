@@ -2,34 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
-from datetime import UTC, datetime
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
+from calibrator_desk import Desk
 from own_recordings import small_eyed
 
-from robot_agent.calibration.guided import GuidedCalibration, drawn
-from robot_agent.calibration.guided_results import target_of
+from robot_agent.calibration.drawing import drawn
+from robot_agent.calibration.guided import GuidedCalibration
 from robot_agent.calibration.kalibr_files import read_target
 from robot_agent.calibration.rig import Rig
-from robot_agent.calibration_process import CalibrationProcess
+from robot_agent.calibration.target_words import target_of
 from robot_agent.recording import open_recording
 from robot_agent.vision.camchain import read_chain
 from robot_agent.vision.camera import StereoCalibration
 from sim_agent.targets.recording import RigTruth
 from weaver_shared import topics
-from weaver_shared.bus import MemoryBus
 from weaver_shared.errors import InputError
 from weaver_shared.messages import (
-    Answer,
-    CalibrationState,
-    CameraPicture,
-    Command,
     CommandName,
     PartRequest,
     StereoFrame,
@@ -87,53 +79,19 @@ def test_pictures_of_another_size_than_described_are_refused(guided: GuidedCalib
         guided.look(StereoFrame(stamp_ns=1, sequence=1, left=large, right=large))
 
 
-@pytest.mark.parametrize("text", ["", "aprilgrid", "aprilgrid 6 6 0.088", "circles 3 4 5 6", "checkerboard a b c"])
+@pytest.mark.parametrize(
+    "text", ["", "aprilgrid", "aprilgrid 6 6 0.088", "circles 3 4 5 6", "checkerboard a b c", "aprilgrid nan 6 1 1"]
+)
 def test_a_target_that_is_none_is_answered_with_how_to_write_one(text: str) -> None:
     with pytest.raises(InputError, match="is no target; write aprilgrid COLUMNS"):
         target_of(text)
 
 
-@dataclass(kw_only=True)
-class Desk:
-    bus: MemoryBus
-    process: CalibrationProcess
-    workers: ThreadPoolExecutor
-    told: list[CalibrationState] = field(default_factory=list)
-    pictures: list[CameraPicture] = field(default_factory=list)
-
-    def order(self, name: CommandName, text: str = "") -> Answer:
-        command = Command(command=name, operator="anna", lease_epoch=0, sequence=1, name=text)
-        asked = self.workers.submit(self.bus.ask, "sim-1", topics.CALIBRATOR_COMMANDS, command)
-        while not asked.done():
-            self.process.turn()
-        return asked.result()
-
-
-@pytest.fixture
-def desk(own_recording: Path, tmp_path: Path) -> Iterator[Desk]:
-    bus = MemoryBus()
-    process = CalibrationProcess(
-        robot_id="sim-1",
-        robot=small_eyed(),
-        bus=bus,
-        open_bus=MemoryBus,
-        recordings=own_recording.parent,
-        folder=tmp_path,
-        wall_time=lambda: datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC),
-    )
-    with ThreadPoolExecutor(1) as workers:
-        made = Desk(bus=bus, process=process, workers=workers)
-        bus.subscribe("sim-1", topics.CALIBRATION, lambda _id, _key, state: made.told.append(state))
-        bus.subscribe("sim-1", topics.CAMERA, lambda _id, _key, picture: made.pictures.append(picture))
-        yield made
-        process.close()
-
-
 def test_a_recording_leads_to_kalibrs_files_and_a_report(desk: Desk, truth: RigTruth, tmp_path: Path) -> None:
     assert desk.told[-1].phase == "idle"
     assert desk.order(START, f"{TARGET} from own.mcap").accepted
-    while not desk.told[-1].pictures or len(desk.pictures) < 20:
-        desk.process.turn()
+    desk.await_end_of_recording()
+    assert len(desk.pictures) >= 20
     looking = desk.told[-1]
     assert looking.phase == "looking"
     assert looking.source == "own.mcap"
@@ -141,9 +99,7 @@ def test_a_recording_leads_to_kalibrs_files_and_a_report(desk: Desk, truth: RigT
     assert max(looking.seen) > 16
     assert desk.pictures[-1].name == "calibration"
     assert desk.order(SOLVE, "radtan").accepted
-    while desk.told[-1].phase == "solving":
-        desk.process.turn(0.05)
-    solved = desk.told[-1]
+    solved = desk.await_solution()
     assert solved.phase == "solved", solved.verdict
     folder = tmp_path / "sim-1_2026-01-02_03-04-05"
     assert {path.name for path in folder.iterdir()} == {file.rpartition("/")[2] for file in solved.files}
@@ -155,6 +111,7 @@ def test_a_recording_leads_to_kalibrs_files_and_a_report(desk: Desk, truth: RigT
     part = desk.bus.ask("sim-1", topics.CALIBRATION_PART, PartRequest(name=report, offset=0, length=1 << 20))
     assert part.data.count(b"<svg") == 5
     assert any("baseline" in line for line in solved.results)
+    assert solved.calibrations == ("sim-1_2026-01-02_03-04-05",)
 
 
 def test_what_can_not_be_done_is_refused_with_the_reason(desk: Desk) -> None:
@@ -163,11 +120,10 @@ def test_what_can_not_be_done_is_refused_with_the_reason(desk: Desk) -> None:
     assert "is not the name of a recording" in desk.order(START, f"{TARGET} from ../../etc/passwd").reason
     assert "can not be read" in desk.order(START, f"{TARGET} from none.mcap").reason
     assert desk.order(START, TARGET).accepted
+    desk.await_start()
     assert "lens model 'plastic' is unknown" in desk.order(SOLVE, "plastic").reason
     assert desk.order(SOLVE).accepted
-    while desk.told[-1].phase == "solving":
-        desk.process.turn(0.05)
-    assert desk.told[-1].phase == "failed"
+    assert desk.await_solution().phase == "failed"
     assert "the left eye sees the target in 0 of 0 pictures" in desk.told[-1].verdict
     assert desk.order(END).accepted
     assert desk.told[-1].phase == "idle"

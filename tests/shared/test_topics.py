@@ -13,6 +13,7 @@ FILLED = {"process": "walk", "i": -3, "j": 12, "name": "left"}
 ASKED = {kind.__name__ for query in QUERIES for kind in (query.question, query.answer)}
 PARTS = {
     "AdaptationReport",
+    "CalibrationMotion",
     "CalibrationWish",
     "GaitParameters",
     "ImuBatch",

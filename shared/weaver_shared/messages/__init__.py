@@ -1,6 +1,7 @@
 """Everything that crosses a process border, as frozen dataclasses. Arrays are row-major; units are SI unless named."""
 
 from weaver_shared.messages.calibration import (
+    CalibrationMotion,
     CalibrationState,
     CalibrationWish,
 )
@@ -58,6 +59,7 @@ from weaver_shared.messages.telemetry import (
 __all__ = [
     "AdaptationReport",
     "Answer",
+    "CalibrationMotion",
     "CalibrationState",
     "CalibrationWish",
     "CameraPicture",

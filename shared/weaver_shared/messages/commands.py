@@ -36,7 +36,7 @@ class CommandName(StrEnum):
     LOOK_CLOSELY = "look_closely"  # the next picture in full resolution into the map; the vision loop's, needs no lease
     START_RECORDING = "start_recording"  # value 1: with the stereo pictures, 0: without; the recorder's, needs no lease
     STOP_RECORDING = "stop_recording"  # the recorder's, needs no lease
-    START_CALIBRATION = "start_calibration"  # name: TARGET, or TARGET from RECORDING; the calibrator's, needs no lease
+    START_CALIBRATION = "start_calibration"  # name: [imu] TARGET [with CALIBRATION] [from RECORDING]; needs no lease
     SOLVE_CALIBRATION = "solve_calibration"  # name of the lens model: radtan, equidistant; likewise
     END_CALIBRATION = "end_calibration"  # likewise
 

@@ -1,13 +1,15 @@
-/** Calibrating the robot's cameras, guided: pictures with the target drawn, what is missing, solving, the report. */
-import { useEffect } from "react";
+/** Calibrating the robot's cameras and its IMU, guided: what is seen, what is missing, solving, the report. */
+import { useEffect, useState } from "react";
 import { spokenAge } from "../console/freshness";
 import { send } from "../console/outbox";
 import { type Stamped, useConsole } from "../console/store";
 import { useFreshness, useLatest } from "../console/useLatest";
 import type { CalibrationState } from "../protocol/messages";
 import { GuidePanel } from "./GuidePanel";
+import { MotionPanel } from "./MotionPanel";
 import { ResultPanel } from "./ResultPanel";
 import { TargetPanel } from "./TargetPanel";
+import type { Choice } from "./target";
 
 const STATE = "state/calibration";
 const PICTURE = "tele/cam/calibration";
@@ -16,13 +18,14 @@ export default function CalibrationPage() {
   const state = useLatest(STATE);
   const robot = useConsole((page) => page.selected);
   const connected = useConsole((page) => page.connection === "open");
+  const [choice, setChoice] = useState<Choice>({ part: state?.part ?? "cameras", lenses: "" });
   useEffect(() => {
     send({ type: "watch", cameras: true });
   }, [connected, robot]);
   return (
     <main className="calibration">
       <nav className="calibration-head">
-        <h2>Calibrate the cameras</h2>
+        <h2>Calibrate cameras and IMU</h2>
         <a href="#">Back to the robot</a>
       </nav>
       {state === undefined || robot === null ? (
@@ -33,11 +36,11 @@ export default function CalibrationPage() {
         <div className="calibration-parts">
           <div className="panel-column">
             <Pictures state={state} />
-            {state.verdict !== "" && <ResultPanel robot={robot} state={state} />}
+            {state.verdict !== "" && <ResultPanel robot={robot} state={state} onNext={setChoice} />}
           </div>
           <div className="panel-column">
-            <TargetPanel state={state} />
-            {state.phase !== "idle" && <GuidePanel state={state} />}
+            <TargetPanel state={state} choice={choice} onChoice={setChoice} />
+            {state.phase !== "idle" && (state.part === "imu" ? <MotionPanel state={state} /> : <GuidePanel state={state} />)}
           </div>
         </div>
       )}

@@ -1,11 +1,21 @@
 /** The verdict, the main figures, Kalibr's files to download, and the report with its residual plots. */
+import { Button } from "@mantine/core";
 import { Panel } from "../components/Panel";
 import { sentence } from "../components/format";
 import type { CalibrationState } from "../protocol/messages";
+import type { Choice } from "./target";
 
-export function ResultPanel({ robot, state }: { robot: string; state: CalibrationState }) {
+interface ResultPanelProps {
+  robot: string;
+  state: CalibrationState;
+  /** Go on with another part. */
+  onNext(choice: Choice): void;
+}
+
+export function ResultPanel({ robot, state, onNext }: ResultPanelProps) {
   const address = (file: string) => `/api/calibrations/${[robot, ...file.split("/")].map(encodeURIComponent).join("/")}`;
   const report = state.files.find((file) => file.endsWith("report.html"));
+  const folder = state.files[0]?.split("/")[0];
   return (
     <Panel title="Result" className="calibration-result">
       <p className="verdict" role="status" aria-label="Verdict" data-usable={state.usable}>
@@ -29,7 +39,14 @@ export function ResultPanel({ robot, state }: { robot: string; state: Calibratio
               </li>
             ))}
           </ul>
-          <p className="hint">On the robot in {state.folder}</p>
+          <p className="hint">
+            On the robot in {state.folder}/{folder}
+          </p>
+          {state.part === "cameras" && state.usable && folder !== undefined && (
+            <Button variant="default" onClick={() => onNext({ part: "imu", lenses: folder })}>
+              Go on with camera and IMU
+            </Button>
+          )}
         </>
       )}
       {report !== undefined && (

@@ -1,4 +1,4 @@
-/** What is looked for and where: the target's size, and live pictures or a recording. */
+/** What is calibrated, what is looked for and where: the target's size, and the robot now or a recording. */
 import { Button } from "@mantine/core";
 import { useState } from "react";
 import { Panel } from "../components/Panel";
@@ -7,11 +7,18 @@ import { useConsole } from "../console/store";
 import { useLatest } from "../console/useLatest";
 import type { CalibrationState } from "../protocol/messages";
 import { startOf } from "../recording/figures";
-import { type TargetForm, type TargetKind, USUAL, faultOf, wordsOf } from "./target";
+import { type Choice, type Part, type TargetForm, type TargetKind, USUAL, faultOf, madeAt, wordsOf } from "./target";
 
 const NOW = "";
+const DESCRIBED = "";
 
-export function TargetPanel({ state }: { state: CalibrationState }) {
+interface TargetPanelProps {
+  state: CalibrationState;
+  choice: Choice;
+  onChoice(choice: Choice): void;
+}
+
+export function TargetPanel({ state, choice, onChoice }: TargetPanelProps) {
   const [form, setForm] = useState<TargetForm>(USUAL);
   const [source, setSource] = useState(NOW);
   const [waiting, setWaiting] = useState(false);
@@ -22,7 +29,7 @@ export function TargetPanel({ state }: { state: CalibrationState }) {
 
   const start = async () => {
     setWaiting(true);
-    await command("start_calibration", { name: wordsOf(form, source) });
+    await command("start_calibration", { name: wordsOf(form, choice, source) });
     setWaiting(false);
   };
   const number = (label: string, field: "columns" | "rows" | "size" | "spacing", step: string) => (
@@ -41,6 +48,16 @@ export function TargetPanel({ state }: { state: CalibrationState }) {
   return (
     <Panel title="Target" className="target">
       <div className="fields">
+        <label className="field field-wide">
+          <span>Calibrate</span>
+          <select
+            value={choice.part}
+            onChange={(event) => onChoice({ ...choice, part: event.currentTarget.value as Part })}
+          >
+            <option value="cameras">1. Cameras: lenses, and the eyes' places</option>
+            <option value="imu">2. Camera and IMU: place, turn and delay</option>
+          </select>
+        </label>
         <label className="field">
           <span>Kind</span>
           <select
@@ -56,9 +73,9 @@ export function TargetPanel({ state }: { state: CalibrationState }) {
         {number(form.kind === "aprilgrid" ? "Tag size, mm" : "Square size, mm", "size", "any")}
         {form.kind === "aprilgrid" && number("Gap over tag size", "spacing", "any")}
         <label className="field field-wide">
-          <span>Pictures from</span>
+          <span>{choice.part === "imu" ? "Pictures and IMU from" : "Pictures from"}</span>
           <select value={source} onChange={(event) => setSource(event.currentTarget.value)}>
-            <option value={NOW}>the robot's cameras, now</option>
+            <option value={NOW}>{choice.part === "imu" ? "the robot, now" : "the robot's cameras, now"}</option>
             {recordings.map((entry) => (
               <option key={entry.name} value={entry.name}>
                 the recording of {startOf(entry.started)}
@@ -66,6 +83,22 @@ export function TargetPanel({ state }: { state: CalibrationState }) {
             ))}
           </select>
         </label>
+        {choice.part === "imu" && (
+          <label className="field field-wide">
+            <span>Lenses from</span>
+            <select
+              value={choice.lenses}
+              onChange={(event) => onChoice({ ...choice, lenses: event.currentTarget.value })}
+            >
+              <option value={DESCRIBED}>the robot's description</option>
+              {state.calibrations.map((folder) => (
+                <option key={folder} value={folder}>
+                  the calibration of {madeAt(folder)}
+                </option>
+              ))}
+            </select>
+          </label>
+        )}
       </div>
       {fault !== null && <p className="hint">{fault}</p>}
       <div className="button-row">
@@ -87,7 +120,13 @@ export function TargetPanel({ state }: { state: CalibrationState }) {
         </Button>
       </div>
       <p className="hint">
-        Print a target with <code>weaver calibrate target --out target.pdf</code>, fix it flat, and measure it.
+        {choice.part === "imu" ? (
+          "Fix the target and move the robot before it for half a minute: quick turns and pushes, the target always in view."
+        ) : (
+          <>
+            Print a target with <code>weaver calibrate target --out target.pdf</code>, fix it flat, and measure it.
+          </>
+        )}
       </p>
     </Panel>
   );

@@ -1,6 +1,7 @@
-/** The target as a person describes it, and as the calibrator wants to be told. */
+/** The target as a person describes it, and the calibration as the calibrator wants to be told. */
 
 export type TargetKind = "aprilgrid" | "checkerboard";
+export type Part = "cameras" | "imu";
 
 export interface TargetForm {
   kind: TargetKind;
@@ -10,6 +11,12 @@ export interface TargetForm {
   size: number;
   /** Gap between tags over their size. */
   spacing: number;
+}
+
+/** What is calibrated: the part "imu" goes by the lenses of a calibration, or of the robot's description if "". */
+export interface Choice {
+  part: Part;
+  lenses: string;
 }
 
 export const USUAL: TargetForm = { kind: "aprilgrid", columns: 6, rows: 6, size: 88, spacing: 0.3 };
@@ -25,15 +32,21 @@ export function faultOf({ kind, columns, rows, size, spacing }: TargetForm): str
   return null;
 }
 
-export function wordsOf({ kind, columns, rows, size, spacing }: TargetForm, recording: string): string {
+/** `recording` is "" for the robot as it is now. */
+export function wordsOf(
+  { kind, columns, rows, size, spacing }: TargetForm,
+  { part, lenses }: Choice,
+  recording: string,
+): string {
   const numbers = kind === "aprilgrid" ? [columns, rows, size / 1000, spacing] : [columns, rows, size / 1000];
-  return `${kind} ${numbers.join(" ")}${recording === "" ? "" : ` from ${recording}`}`;
+  const words = [part === "imu" ? "imu " : "", `${kind} ${numbers.join(" ")}`];
+  if (part === "imu" && lenses !== "") words.push(` with ${lenses}`);
+  if (recording !== "") words.push(` from ${recording}`);
+  return words.join("");
 }
 
-const STEPS = ["lens of the left eye", "lens of the right eye", "both eyes together"];
-
-/** How many of the three steps of solving are done, from the name of the one that runs. */
-export function stepsDone(step: string): number {
-  return Math.max(0, STEPS.indexOf(step));
+/** When a calibration was made, from its folder's name, by the robot's clock; the name itself if it tells none. */
+export function madeAt(folder: string): string {
+  const match = /_(\d{4}-\d{2}-\d{2})_(\d{2})-(\d{2})-(\d{2})$/.exec(folder);
+  return match === null ? folder : `${match[1]} ${match[2]}:${match[3]}:${match[4]}`;
 }
-export const STEP_COUNT = STEPS.length;

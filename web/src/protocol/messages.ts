@@ -204,12 +204,28 @@ export interface CalibrationWish {
   advice: string;
 }
 
+export interface CalibrationMotion {
+  kind: "turn" | "push";
+  axis: "x" | "y" | "z";
+  now: number;
+  least: number;
+  unit: string;
+  seconds: number;
+  wanted: number;
+  met: boolean;
+}
+
 export interface CalibrationState {
-  phase: "idle" | "looking" | "solving" | "solved" | "failed";
+  phase: "idle" | "starting" | "looking" | "solving" | "solved" | "failed";
+  part: "cameras" | "imu";
   source: string;
   target: string;
+  lenses: string;
+  calibrations: string[];
   pictures: number;
   views: number;
+  seconds: number;
+  motions: CalibrationMotion[];
   seen: number[];
   cover: number[][][];
   wishes: CalibrationWish[];

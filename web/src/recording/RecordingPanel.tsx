@@ -51,7 +51,7 @@ export function RecordingPanel() {
           </div>
           <Remarks state={state} />
           <a className="link-button" href="#calibration">
-            Calibrate the cameras
+            Calibrate cameras and IMU
           </a>
           {robot !== null && <RecordingList robot={robot} entries={state.entries} />}
         </>
