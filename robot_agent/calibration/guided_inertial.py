@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
 
 from robot_agent.calibration.felt_motion import LEAST, FeltMotion
@@ -32,6 +33,9 @@ BEFORE = 100
 WANTED_SECONDS = 4.0
 """Of each motion."""
 
+LOOKS = 12
+"""Pictures by which it is told how often one comes."""
+
 HOW = {
     ("turn", "x"): "roll it, left side up, right side up",
     ("turn", "y"): "nod it, front up, front down",
@@ -56,6 +60,7 @@ class GuidedInertial:
         self._felt: list[ImuBatch] = []
         self._motion = FeltMotion()
         self._seen_ns = -1
+        self._looked_ns: deque[int] = deque(maxlen=LOOKS)
         self.samples = 0
         self.pictures = 0
         self.seconds = 0.0  # with the target in view
@@ -75,6 +80,7 @@ class GuidedInertial:
     def look(self, frame: StereoFrame) -> bool:
         """Look for the target; whether it was there. Raises InputError for pictures of another size."""
         self.pictures += 1
+        self._looked_ns.append(frame.stamp_ns)
         self.sightings = tuple(
             self._detector.detect(sized(picture, size, self._told_by)) if picture.size else None
             for picture, size in zip((frame.left, frame.right), self.lenses.sizes, strict=True)
@@ -116,11 +122,17 @@ class GuidedInertial:
 
     def wishes(self) -> list[Wish]:
         more = max(0.0, ENOUGH_SECONDS - self.seconds)
+        pace = self._pace()
         return [
             Wish(
                 what=f"{self.samples} samples of the IMU",
                 met=self.samples > 0,
                 advice="no samples of the IMU come: is the robot switched on, was its IMU recorded?",
+            ),
+            Wish(
+                what=f"{pace:.1f} pictures a second",
+                met=pace > 1.0 / LONGEST_GAP,
+                advice="pictures are looked at too seldom: record the motion first, and calibrate from the recording",
             ),
             Wish(
                 what=f"{self.seconds:.0f} s with the target in view",
@@ -131,13 +143,15 @@ class GuidedInertial:
 
     def advice(self) -> str:
         """What to do next, in words."""
-        felt, lasted = self.wishes()
+        felt, often, lasted = self.wishes()
         if self.pictures and not felt.met:
             return felt.advice
         if self.full:
             return "no more is kept: solve, or start again"
         if self.pictures and self._most_corners() < LEAST_CORNERS:
             return f"bring the target into the picture and keep it there: looking for {called(self.target)}"
+        if len(self._looked_ns) == LOOKS and not often.met:
+            return often.advice
         for motion in self.motions():
             if not motion.met:
                 return (
@@ -162,6 +176,11 @@ class GuidedInertial:
         inertia = at_instants(ImuBatch.join(list(self._felt)), self.imu.rate)
         estimate = calibrate_imu(self.lenses, list(self._views), self.target, inertia, self.imu, tell=tell)
         return estimate, judge_imu(estimate)
+
+    def _pace(self) -> float:
+        """Of the pictures looked at last, 1/s."""
+        span = self._looked_ns[-1] - self._looked_ns[0] if self._looked_ns else 0
+        return (len(self._looked_ns) - 1) / (span * 1e-9) if span > 0 else 0.0
 
     def _most_corners(self) -> int:
         return max(len(sighting) if sighting else 0 for sighting in self.sightings)

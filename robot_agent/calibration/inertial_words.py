@@ -29,7 +29,7 @@ def inertial_figures(estimate: InertialEstimate, described: Pose) -> Iterator[st
         f"± {1e3 * estimate.time_offset_sigma:.3f} ms"
     )
     yield f"gyro bias: {_each(estimate.gyro_bias, estimate.bias_sigma[:3], 5)} rad/s"
-    yield f"accelerometer bias: {_each(estimate.accel_bias, estimate.bias_sigma[3:], 4)} m/s^2"
+    yield f"accelerometer bias: {_each(estimate.accel_bias, estimate.bias_sigma[3:], 4)} m/s²"
     errors = float(np.sqrt((estimate.corner_errors**2).sum(axis=1).mean()))
     yield f"reprojection error {errors:.3f} px in {estimate.pictures} pictures"
 

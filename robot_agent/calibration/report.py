@@ -24,6 +24,7 @@ STYLE = (
     "td:first-child,th:first-child{text-align:left}svg{max-width:100%;height:auto;border:1px solid #ccc}"
     ".verdict{padding:.6rem 1rem;border-left:.4rem solid;font-weight:600}"
     ".good{border-color:#2a7}.bad{border-color:#c33}"
+    "@media(max-width:40rem){table{display:block;overflow-x:auto}h1{font-size:1.5rem}body{margin:.5rem auto}}"
 )
 
 

@@ -96,6 +96,16 @@ def test_what_lacks_is_said_in_its_order(guided: GuidedInertial, own_recording: 
     assert [motion.met for motion in guided.motions()] == [False] * 6
 
 
+def test_pictures_that_come_too_seldom_are_told_of(guided: GuidedInertial, own_recording: Path) -> None:
+    frame = next(open_recording(own_recording).messages(topics.STEREO))[2]
+    for k in range(12):
+        guided.feel(shaken(0.01))
+        guided.look(pair((1 + k) * 500_000_000, frame.left))
+    assert guided.seconds == 0.0
+    assert guided.wishes()[1].what == "2.0 pictures a second"
+    assert guided.advice().startswith("pictures are looked at too seldom: record the motion first")
+
+
 def test_no_more_is_kept_than_can_be_solved(guided: GuidedInertial, own_recording: Path) -> None:
     frame = next(open_recording(own_recording).messages(topics.STEREO))[2]
     guided.feel(shaken(0.5))

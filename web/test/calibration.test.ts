@@ -59,12 +59,12 @@ test("a motion is told with what is felt of it now, and for how long it was enou
   const push: CalibrationMotion = { ...turn, kind: "push", axis: "z", least: 0.5, unit: "m/s^2", seconds: 9 };
   expect([nameOf(turn), nowOf(turn), secondsOf(turn)]).toEqual([
     "Turn about x (roll)",
-    "now 0.62 of 0.3 rad/s",
+    "now 0.62 rad/s, 0.3 is enough",
     "2.1 of 4 s",
   ]);
   expect([nameOf(push), nowOf(push), secondsOf(push)]).toEqual([
     "Push along z (up and down)",
-    "now 0.62 of 0.5 m/s²",
+    "now 0.62 m/s², 0.5 is enough",
     "4.0 of 4 s",
   ]);
 });

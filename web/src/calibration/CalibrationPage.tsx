@@ -39,8 +39,8 @@ export default function CalibrationPage() {
             {state.verdict !== "" && <ResultPanel robot={robot} state={state} onNext={setChoice} />}
           </div>
           <div className="panel-column">
-            <TargetPanel state={state} choice={choice} onChoice={setChoice} />
             {state.phase !== "idle" && (state.part === "imu" ? <MotionPanel state={state} /> : <GuidePanel state={state} />)}
+            <TargetPanel state={state} choice={choice} onChoice={setChoice} />
           </div>
         </div>
       )}
@@ -51,15 +51,18 @@ export default function CalibrationPage() {
 function Pictures({ state }: { state: CalibrationState }) {
   const picture = useConsole((page) => (page.values[PICTURE] as Stamped<{ jpeg: string }> | undefined)?.value);
   const { level, age } = useFreshness(PICTURE);
-  if (picture === undefined || state.phase === "idle") {
+  if (state.phase === "idle") {
     return <p className="view-empty calibration-eyes">Start looking to see both eyes with the corners they find.</p>;
+  }
+  if (picture === undefined || state.pictures === 0) {
+    return <p className="view-empty calibration-eyes">Waiting for the first pictures.</p>;
   }
   const seen = state.seen.map((count, eye) => `${count} in the ${eye === 0 ? "left" : "right"} eye`).join(", ");
   return (
     <figure className="calibration-eyes">
       <img src={`data:image/jpeg;base64,${picture.jpeg}`} alt={`Left and right eye; corners found: ${seen}`} />
       <figcaption>
-        Corners found: <span className="number">{seen}</span>
+        Target: {state.target}. Corners found: <span className="number">{seen}</span>
         {state.source !== "cameras" && `, in ${state.source}`}
         {level !== "live" && state.phase === "looking" && `; ${spokenAge(age)} old`}
       </figcaption>

@@ -22,7 +22,7 @@ export function GuidePanel({ state }: { state: CalibrationState }) {
         </span>
       }
     >
-      <Advice text={state.advice} />
+      <Advice state={state} />
       <div className="covers">
         {state.cover.map((fields, eye) => (
           <CoverMap key={EYES[eye]} eye={EYES[eye] ?? ""} fields={fields} />

@@ -22,7 +22,7 @@ export function MotionPanel({ state }: { state: CalibrationState }) {
         </span>
       }
     >
-      <Advice text={state.advice} />
+      <Advice state={state} />
       <ul className="wishes motions" aria-label={`Motions wanted, ${met} of ${state.motions.length} met`}>
         {state.motions.map((motion) => (
           <Motion key={nameOf(motion)} motion={motion} />
@@ -46,11 +46,9 @@ function Motion({ motion }: { motion: CalibrationMotion }) {
     <li data-met={motion.met}>
       <Sign met={motion.met} />
       <span>{nameOf(motion)}</span>
+      <span className="number hint">{nowOf(motion)}</span>
       <progress aria-hidden max={motion.wanted} value={motion.seconds} />
       <span className="number">{secondsOf(motion)}</span>
-      <span className="number hint" data-enough={motion.now >= motion.least}>
-        {nowOf(motion)}
-      </span>
     </li>
   );
 }

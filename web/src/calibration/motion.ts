@@ -10,9 +10,9 @@ export function nameOf({ kind, axis }: CalibrationMotion): string {
   return kind === "turn" ? `Turn about ${axis} (${ABOUT[axis]})` : `Push along ${axis} (${ALONG[axis]})`;
 }
 
-/** "now 0.62 of 0.3 rad/s". */
+/** "now 0.62 rad/s, 0.3 is enough". */
 export function nowOf({ now, least, unit }: CalibrationMotion): string {
-  return `now ${fixed(now, 2)} of ${least} ${unit === "m/s^2" ? "m/s²" : unit}`;
+  return `now ${fixed(now, 2)} ${unit === "m/s^2" ? "m/s²" : unit}, ${least} is enough`;
 }
 
 /** "2.1 of 4 s"; no more than was wanted. */
