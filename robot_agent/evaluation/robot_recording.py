@@ -56,6 +56,7 @@ class RobotRecording:
         return LegBatch(
             stamp_ns=self.legs.stamp_ns[begin:end],
             joint_position=self.legs.joint_position[begin:end],
+            joint_torque=self.legs.joint_torque[begin:end],
             foot_contact=self.legs.foot_contact[begin:end],
         )
 
