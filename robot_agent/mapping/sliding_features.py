@@ -3,6 +3,9 @@
 A square's residuals about its least-squares plane follow from ten sums, whatever its size. Running sums know no
 percentiles or absolute values, so f1, f3 and f6 are what a normal law of the same root mean square would give; the
 edges (f4, f7) and the surface area (f5) are counted as they are.
+
+The variance of a cell's height has a part that its neighbours share, the pose's and the calibration's: it lifts or
+tilts the ground and does not roughen it. Only the rest is taken off.
 """
 
 from __future__ import annotations
@@ -18,13 +21,13 @@ from weaver_shared.config.perception import FeatureConfig
 
 Grid = NDArray[np.float32]
 
-SUMS = 16  # known, x, y, xx, xy, yy, z, xz, yz, zz, variance, pairs, edges, edge height, area cells, area
+SUMS = 16  # known, x, y, xx, xy, yy, z, xz, yz, zz, noise squared, pairs, edges, edge height, area cells, area
 HALF_NORMAL_MEAN = 0.7979
 SPREAD_5_95 = 3.2897
 PERCENTILE_98 = 2.0537
-NOISE_LEFT = 0.5  # share of a cell's noise that remains after the expected noise was taken off
+NOISE_LEFT = 0.8  # share of the noise by which a deviation may be wrong after the expected noise was taken off
 UNSEEN_ERROR = 0.4  # relative error of features where nothing but the least was seen
-CORRELATION_LENGTH = 0.1  # m over which rough ground stays alike
+SMOOTHING_ERROR = 0.09  # relative error of features by what matching rounds off, measured on the testbed
 
 
 class _Weights(NamedTuple):
@@ -54,8 +57,16 @@ def cell_features(elevation: Grid, variance: Grid, config: MappingConfig) -> Cel
     window = 2 * half + 1
     fewest = max(3.0, config.min_coverage * window**2)
     weights = _weights(config.features)
-    relative = _relative_sigmas(window, config.cell)
-    return CellFeatures(*_slide(elevation, variance, config.cell, half, fewest, weights, relative))
+    relative = _relative_sigmas(window)
+    noise = own_noise(variance, config)
+    return CellFeatures(*_slide(elevation, noise, config.cell, half, fewest, weights, relative))
+
+
+def own_noise(variance: Grid, config: MappingConfig) -> Grid:
+    """The part of each cell's variance (m^2) that its neighbours do not share; none of exact heights."""
+    left = np.maximum(variance - np.float32(config.sigma_floor**2), np.float32(config.neighbour_noise**2))
+    noise: Grid = np.minimum(left, variance)
+    return noise
 
 
 def _weights(features: FeatureConfig) -> _Weights:
@@ -70,21 +81,19 @@ def _weights(features: FeatureConfig) -> _Weights:
     )
 
 
-def _relative_sigmas(window: int, cell: float) -> NDArray[np.float64]:
+def _relative_sigmas(window: int) -> NDArray[np.float64]:
     """Relative standard deviation of a square's features by how many of its cells are known, (window^2 + 1,).
 
-    From what was not seen (blocks 40 % hidden read 15-25 % low) and how few independent 10 cm patches it holds.
+    From what was not seen (blocks 40 % hidden read 15-25 % low) and from what the pictures do not resolve.
     """
-    known = np.arange(window**2 + 1)
-    unseen = UNSEEN_ERROR * (1.0 - known / window**2)
-    samples = np.maximum(1.0, known * cell**2 / CORRELATION_LENGTH**2)
-    return np.asarray(np.sqrt(unseen**2 + 0.5 / samples), dtype=np.float64)
+    unseen = UNSEEN_ERROR * (1.0 - np.arange(window**2 + 1) / window**2)
+    return np.asarray(np.hypot(unseen, SMOOTHING_ERROR), dtype=np.float64)
 
 
 @njit(cache=True)
 def _slide(  # noqa: PLR0915
     elevation: Grid,
-    variance: Grid,
+    noise_squared: Grid,
     cell: float,
     half: int,
     fewest: float,
@@ -107,7 +116,7 @@ def _slide(  # noqa: PLR0915
     for r in range(-half, rows):
         if r + half < rows:
             entering_row = ring[(r + half) % ring.shape[0]]
-            _contribute(elevation, variance, r + half, mean, cell, weights.edge_height, entering_row)
+            _contribute(elevation, noise_squared, r + half, mean, cell, weights.edge_height, entering_row)
             _add(column_sums, entering_row, 1.0)
         if r - half - 1 >= 0:
             _add(column_sums, ring[(r - half - 1) % ring.shape[0]], -1.0)
@@ -174,7 +183,7 @@ def _mean(elevation: Grid) -> float:
 @njit(cache=True)
 def _contribute(
     elevation: Grid,
-    variance: Grid,
+    noise_squared: Grid,
     r: int,
     mean: float,
     cell: float,
@@ -189,7 +198,7 @@ def _contribute(
         z0 = elevation[r, c]
         if np.isnan(z0):
             continue
-        z, y, noise = float(z0) - mean, c * cell, float(variance[r, c])
+        z, y, noise = float(z0) - mean, c * cell, float(noise_squared[r, c])
         s = sums[c * SUMS : (c + 1) * SUMS]
         s[0], s[1], s[2], s[3], s[4], s[5] = 1.0, x, y, x * x, x * y, y * y
         s[6], s[7], s[8], s[9], s[10] = z, x * z, y * z, z * z, noise

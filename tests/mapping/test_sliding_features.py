@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from robot_agent.mapping.sliding_features import HALF_NORMAL_MEAN, PERCENTILE_98, SPREAD_5_95, cell_features
+from robot_agent.mapping.sliding_features import HALF_NORMAL_MEAN, PERCENTILE_98, SPREAD_5_95, cell_features, own_noise
 from weaver_shared.config.mapping import MappingConfig
 from weaver_shared.config.perception import FeatureConfig
 
@@ -67,6 +67,13 @@ def test_too_little_known_is_unknown():
 
 def test_the_noise_of_the_cells_is_taken_off_and_widens_the_sigma():
     z = (0.004 * np.random.default_rng(1).normal(size=(60, 50))).astype(np.float32)
-    sure, unsure = features_of(z), features_of(z, variance=0.004**2)
+    sure, unsure = features_of(z), features_of(z, variance=0.004**2 + CONFIG.sigma_floor**2)
     assert np.nanmedian(unsure.roughness) < 0.3 * np.nanmedian(sure.roughness)
     assert np.nanmedian(unsure.roughness_sigma) > np.nanmedian(sure.roughness_sigma)
+
+
+def test_what_all_cells_share_roughens_nothing_and_hides_nothing():
+    z = (0.003 * np.random.default_rng(1).normal(size=(60, 50))).astype(np.float32)
+    exact, settled = features_of(z), features_of(z, variance=CONFIG.sigma_floor**2)
+    assert np.nanmedian(settled.roughness) > 0.95 * np.nanmedian(exact.roughness)
+    assert (own_noise(np.zeros((2, 2), dtype=np.float32), CONFIG) == 0.0).all()

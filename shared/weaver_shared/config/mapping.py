@@ -21,7 +21,8 @@ class MappingConfig(BaseModel):
     gate: Positive = 3.0  # standard deviations an elevation may differ from the map's
     gate_slack: Annotated[float, Field(ge=0.0)] = 0.01  # m that are never an outlier: edges seen from elsewhere
     rejections: Annotated[int, Field(ge=1, le=255)] = 3  # in a row, after which the new elevation is believed
-    sigma_floor: Positive = 0.002  # a cell is never known better
+    sigma_floor: Positive = 0.002  # a cell is never known better: neighbours share this much of pose and calibration
+    neighbour_noise: Positive = 0.0005  # m by which neighbours differ for no reason, however often they were seen
     drift: Annotated[float, Field(ge=0.0)] = 0.004  # m per square root of a second: odometry and the ground change
     sigma_ceiling: Positive = 0.05  # an old cell is kept, and never thought worse than this
     ray_clearance: Positive = 0.05  # m by which a line of sight must pass under a cell's top to speak against it
