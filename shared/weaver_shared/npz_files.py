@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import tokenize
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,6 +13,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weaver_shared.errors import InputError
+
+DAMAGE = (
+    OSError,
+    ValueError,
+    EOFError,
+    KeyError,
+    NotImplementedError,
+    RuntimeError,
+    SyntaxError,
+    tokenize.TokenError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""What reading an archive raises when single bits of it are wrong: its directory, an array's head, packed data."""
 
 
 def read_npz(path: Path, what: str) -> dict[str, NDArray[Any]]:
@@ -26,5 +42,5 @@ def read_npz(path: Path, what: str) -> dict[str, NDArray[Any]]:
             if not isinstance(archive, Mapping):
                 raise InputError(f"{path} holds a bare array; {what}")
             return {key: archive[key] for key in archive}
-    except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
+    except DAMAGE as error:
         raise InputError(f"{path} can not be read as an .npz file: {error}") from error

@@ -131,7 +131,11 @@ def test_the_command_tells_what_a_map_holds_and_converts_it(saved, tmp_path, cap
 
 def changed(path, **changes):
     with np.load(path) as archive:
-        arrays = {name: archive[name] for name in archive.files} | changes
+        arrays = {name: archive[name] for name in archive.files}
+    for name, value in changes.items():
+        layer = name in LAYERS or name == "seen_ns"
+        fill = layer and value is not None and np.ndim(value) == 0
+        arrays[name] = np.full(arrays["seen_ns"].shape, value) if fill else value
     arrays = {name: array for name, array in arrays.items() if array is not None}
     np.savez(path, **arrays)
 
@@ -144,12 +148,43 @@ def changed(path, **changes):
         ({"roughness": None}, "a map without roughness"),
         ({"slope": np.zeros((3, 3))}, "different shapes"),
         ({"resolution": 0.0}, "must be positive"),
+        ({"version": "new"}, "a map of version new"),
+        ({"version": 1.5}, "a map of version 1.5"),
+        ({"resolution": [0.02, 0.02]}, "resolution has to be one number"),
+        ({"resolution": "fine"}, "resolution has to be one number"),
+        ({"row0": np.nan}, "row0 has to be one number"),
+        ({"row0": 0.5}, "no whole number of cells"),
+        ({"column0": 10**18}, "no whole number of cells"),
+        ({"elevation": "high"}, "elevation has to be numbers"),
+        ({"elevation": np.inf}, "elevation holds inf"),
+        ({"variance": -1.0}, "variance holds -1.0, and can not be negative"),
+        ({"seen_ns": np.nan}, "whole nanoseconds"),
+        (dict.fromkeys((*LAYERS, "seen_ns"), ()), "different shapes|at least one cell"),
     ],
 )
 def test_other_versions_and_broken_maps_are_refused_in_a_sentence(saved, changes, sentence):
     changed(saved, **changes)
     with pytest.raises(InputError, match=sentence):
         load_map(saved)
+
+
+def test_a_map_cut_off_or_with_a_wrong_bit_is_refused_or_whole(saved):
+    """Some bits say nothing, such as a member's date; all that do are guarded by the archive."""
+    whole, data = load_map(saved), saved.read_bytes()
+    for end in range(0, len(data), len(data) // 20):
+        saved.write_bytes(data[:end])
+        with pytest.raises(InputError, match=r"can not be read|is not a map"):
+            load_map(saved)
+    generator = np.random.default_rng(0)
+    for place in generator.integers(0, len(data), 200):
+        broken = bytearray(data)
+        broken[place] ^= 1 << int(generator.integers(8))
+        saved.write_bytes(broken)
+        try:
+            found = load_map(saved)
+        except InputError:
+            continue
+        np.testing.assert_array_equal(found.layers["elevation"], whole.layers["elevation"])
 
 
 def test_files_that_are_no_maps_are_refused_in_a_sentence(tmp_path, walked):
