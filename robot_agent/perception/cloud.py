@@ -18,6 +18,7 @@ CloudFrame = Literal["optical", "z up"]
 HYPOTHESES = 400
 SAMPLE = 6_000  # points that judge a hypothesis
 REFINING = 20_000  # points of the final fit
+NARROWEST_VIEW = 0.15  # of a camera's picture, width over distance: 9 degrees
 INLIER = 0.01  # m per metre of distance and at least: how thick a plane may look
 NEAR_PLANE = 0.03  # m about the first plane that its refinement looks at
 GROUND_DIRECTIONS: dict[CloudFrame, tuple[tuple[tuple[float, float, float], float], ...]] = {
@@ -40,10 +41,16 @@ class LevelledCloud:
 
 
 def frame_of(points: Array) -> CloudFrame:
-    """`optical` if all points lie in front of a camera at the origin that looks along z, else `z up`."""
+    """`optical` if all points lie in front of a camera at the origin that looks along z, else `z up`.
+
+    From a lens they lie in widely different directions; ground high above its origin does not.
+    """
     forward = points[:, 2]
     inside = (forward > 0.0) & (np.abs(points[:, :2]).max(axis=1) < 2.0 * forward)
-    return "optical" if float(inside.mean()) > 0.999 else "z up"
+    if float(inside.mean()) <= 0.999:
+        return "z up"
+    low, high = np.quantile(points[inside, :2] / forward[inside, None], [0.02, 0.98], axis=0)
+    return "optical" if float((high - low).max()) > NARROWEST_VIEW else "z up"
 
 
 def level(points: Array, *, seed: int = 0) -> LevelledCloud:
@@ -52,6 +59,9 @@ def level(points: Array, *, seed: int = 0) -> LevelledCloud:
     Raises InputError if there is no such plane.
     """
     frame = frame_of(points)
+    # How thick a plane looks grows with the distance from a lens; another frame's origin may lie anywhere.
+    middle = np.zeros(3) if frame == "optical" else np.median(points, axis=0)
+    points = points - middle
     generator = np.random.default_rng(seed)
     sample = points if len(points) <= SAMPLE else points[generator.choice(len(points), SAMPLE, replace=False)]
     found = None
@@ -74,7 +84,7 @@ def level(points: Array, *, seed: int = 0) -> LevelledCloud:
     level_from_input = _levelling(normal, offset, frame)
     return LevelledCloud(
         points=level_from_input.transform(points),
-        level_from_input=level_from_input,
+        level_from_input=level_from_input @ Pose.of(-middle),
         normal_in_input=normal,
         ground_rms=plane.rms,
         frame=frame,

@@ -60,7 +60,7 @@ def patch_features(residual: Array, cell: float, noise: float, config: FeatureCo
             _less_noise(float(high - low), SPREAD_5_95 * noise),
             len(edges) / max(1, len(steps)),
             _area_ratio(residual, cell, noise),
-            max(0.0, float(peak) - PERCENTILE_98 * noise),
+            _less_noise(max(0.0, float(peak)), PERCENTILE_98 * noise),
             float(edges.mean()) if len(edges) else 0.0,
         ]
     )

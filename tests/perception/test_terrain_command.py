@@ -99,7 +99,7 @@ def test_stairs_in_a_grid_with_zeros_for_unknown(tmp_path, capsys):
     np.savez(tmp_path / "stairs.npz", elevation=heights.astype(np.float32), resolution=0.04)
     found = report(tmp_path / "stairs.npz", capsys)
     assert np.diff([0.0, *found["steps"]]) == pytest.approx(0.18, abs=0.008)
-    assert found["step_height"]["value"] > 0.9
+    assert found["step_height"]["value"] > 0.98
 
 
 @pytest.mark.parametrize(
@@ -143,12 +143,59 @@ def test_slope_and_roughness_equal_the_layers_that_eths_filters_computed(capsys)
         ({"xyz": np.random.default_rng(0).normal(size=(900, 3))}, "no plane"),
         ({"elevation": np.zeros((40, 40))}, "cell length"),
         ({"elevation": np.full((40, 40), np.nan), "resolution": 0.02}, "0 known cells"),
+        ({"elevation": np.zeros((0, 0)), "resolution": 0.02}, "0 known cells"),
+        ({"elevation": np.zeros((1, 500)), "resolution": 0.02}, "span no plane"),
+        ({"elevation": np.zeros((40, 40)), "resolution": np.inf}, "cell length"),
+        ({"elevation": np.zeros((40, 40)), "resolution": "fine"}, "cell length"),
+        ({"elevation": np.full((40, 40), "high"), "resolution": 0.02}, "elevation has to be numbers"),
+        ({"xyz": np.full((500, 3), "far")}, "xyz has to be numbers"),
+        ({"xyz": np.zeros((0, 3))}, "0 valid points"),
+        ({"xyz": np.ones((500, 3))}, "no plane"),
     ],
 )
 def test_unusable_arrays_are_answered_in_a_sentence(tmp_path, arrays, sentence):
     np.savez(tmp_path / "bad.npz", **arrays)
     with pytest.raises(InputError, match=sentence):
         terrain.main([str(tmp_path / "bad.npz"), "--json"])
+
+
+@pytest.mark.parametrize("laid_out", ["picture", "list with its width", "list"])
+def test_points_behind_the_camera_are_no_ground(tmp_path, laid_out):
+    cloud, up = camera_cloud(BOXES)
+    arrays = {"xyz": -cloud, "table_normal": up}
+    if laid_out == "picture":
+        arrays["xyz"] = -cloud.reshape(240, 320, 3)
+    elif laid_out == "list with its width":
+        arrays |= {"height": 240, "width": 320}
+    np.savez(tmp_path / "behind.npz", **arrays)
+    with pytest.raises(InputError, match="behind the camera"):
+        terrain.main([str(tmp_path / "behind.npz"), "--json"])
+
+
+def test_a_cloud_in_a_frame_of_the_world_may_lie_anywhere(tmp_path, capsys):
+    """High above its origin it does not pass for a camera's, nor is its plane taken for a thick one."""
+    cloud, up = camera_cloud(BOXES)
+    across = np.cross([0.0, 0.0, 1.0], up) / np.linalg.norm(np.cross([0.0, 0.0, 1.0], up))
+    level_from_optical = np.stack([across, np.cross(up, across), up])
+    for origin in ([0.0, 0.0, 0.0], [5.0, -3.0, 100.0], [-4000.0, 70.0, -300.0]):
+        np.savez(tmp_path / "world.npz", points=cloud @ level_from_optical.T + origin)
+        found = report(tmp_path / "world.npz", capsys)
+        assert found["frame"] == "z up"
+        assert found["plane"]["tilt_deg"] < 0.3
+        assert found["steps"] == pytest.approx([0.06, 0.11], abs=0.005)
+
+
+def test_unknown_borders_and_infinite_cells_change_nothing(tmp_path, capsys):
+    heights = np.repeat(0.18 * np.arange(5), 8)[:, None] + 0.002 * np.random.default_rng(0).normal(size=(40, 30))
+    framed = np.full((60, 50), np.nan)
+    framed[12:52, 7:37] = heights
+    framed[:12] = np.inf
+    for name, grid in (("bare", heights), ("framed", framed)):
+        np.savez(tmp_path / f"{name}.npz", elevation=grid, resolution=0.04)
+    bare, framed = (report(tmp_path / f"{name}.npz", capsys) for name in ("bare", "framed"))
+    assert framed["steps"] == bare["steps"]
+    assert framed["stairs"] == bare["stairs"]
+    assert framed["roughness"]["value"] == pytest.approx(bare["roughness"]["value"])
 
 
 def test_missing_and_damaged_files_are_answered_in_a_sentence(tmp_path):
