@@ -197,15 +197,17 @@ def _list_points(
     reach_squared, slope_squared = gate.reach * gate.reach, gate.slope * gate.slope
     # Rays that sink faster than this towards the ground meet it nearer than anything can be matched.
     steepest = (ground - position[2]) / gate.nearest
+    sinking_column = z_column - gate.a * x_column - gate.b * y_column
     listed = 0
     for v in range(BORDER, height - BORDER):
         row_slope = projection.rows[v]
         x_row = rotation[0, 1] * row_slope + rotation[0, 2]
         y_row = rotation[1, 1] * row_slope + rotation[1, 2]
         z_row = rotation[2, 1] * row_slope + rotation[2, 2]
+        steepest_column = steepest - (z_row - gate.a * x_row - gate.b * y_row)
         for u in range(width):
             d = disparity[v, u]
-            if d < smallest or d > largest:
+            if d < smallest or d > largest or sinking_column[u] < steepest_column:
                 continue
             depth = projection.depths[d]
             dx, dy = depth * (x_column[u] + x_row), depth * (y_column[u] + y_row)
@@ -213,8 +215,6 @@ def _list_points(
             if distance_squared > reach_squared:
                 continue
             z_slope = z_column[u] + z_row
-            if z_slope - gate.a * (x_column[u] + x_row) - gate.b * (y_column[u] + y_row) < steepest:
-                continue
             z = position[2] + depth * z_slope
             above = z - ground - gate.a * dx - gate.b * dy
             beyond = abs(above) - gate.height
