@@ -12,6 +12,7 @@ import numpy as np
 from robot_agent.adaptation import ParameterOverrides
 from robot_agent.body import Body, JointTargets
 from robot_agent.commands import CommandDesk, Situation
+from robot_agent.cover_watch import CoverWatch
 from robot_agent.felt_queue import Felt, FeltQueue
 from robot_agent.headway import Headway
 from robot_agent.mapping import TerrainMap
@@ -181,6 +182,7 @@ class VisionLoop:
         self._pipeline: VisionPipeline | None = None
         self._felt = FeltQueue()
         self._meter = LoopMeter("vision", robot.camera.rate)
+        self._cover = CoverWatch()
         self._goal: LatestSlot[NavigationGoal] = LatestSlot()
         bus.subscribe(robot_id, topics.GOAL, lambda _id, _key, message: self._goal.put(message))
         self._frames = 0
@@ -195,6 +197,7 @@ class VisionLoop:
         """Start, or start again, with the robot at this position and heading."""
         upright = Pose(rotation=rotation_z(yaw_of(world_from_body.rotation)), position=world_from_body.position)
         self._pipeline = VisionPipeline(self._robot, upright)
+        self._cover = CoverWatch()
 
     @property
     def begun(self) -> bool:
@@ -235,6 +238,10 @@ class VisionLoop:
             publish(self._robot_id, topics.ROUTE, tick.route)
         if tick.look is not None:
             publish(self._robot_id, topics.EVENT, _event_of(tick.look))
+        if tick.terrain is not None and self._pipeline is not None:
+            event = self._cover.step(self._pipeline.map.cover, tick.terrain.stamp_ns)
+            if event is not None:
+                publish(self._robot_id, topics.EVENT, event)
         # Between pictures, so that a search on another thread sees one goal from beginning to end.
         if self._pipeline is not None and (goal := self._goal.take()) is not None:
             self._pipeline.seek(goal)
