@@ -1,12 +1,14 @@
 """Where each foot belongs: it stands and is left behind by the body, or swings, reaches for the ground and lands.
 
 A standing foot keeps the height it found. A swinging foot that touches early stops there; one that is late goes on
-down, up to a limit, while the gait waits. All places are in the body as it would be without posing.
+down, up to a limit, and then looks for ground beside, while the gait waits. All places are in the body as it would be
+without posing.
 """
 
 import numpy as np
 
 from robot_agent.kinematics.compiled import kernel
+from robot_agent.locomotion.ground_search import DOWN, begin_search, seek
 from robot_agent.locomotion.reasons import FOOTHOLD
 from robot_agent.locomotion.stride import foot_velocity, stride_of, swing_nodes, swing_point
 from robot_agent.locomotion.trip import CLEAR, STRUCK, lead_around, notice_trip
@@ -14,7 +16,7 @@ from robot_agent.locomotion.walk_state import Array, Record
 from robot_agent.locomotion.walkspace import radius_towards
 
 STAND, SWING, REACH, HANG, HELD = 0, 1, 2, 3, 4
-"""HANG: reached as far as it may without finding ground; carries nothing until its next swing.
+"""HANG: reached as far as it may, and found no ground beside either; carries nothing until its next swing.
 HELD: in the operator's hands."""
 FOOTHOLD_SPEED = 0.25
 """m/s, at which a foothold moves in the body while its foot is on the way there."""
@@ -106,7 +108,7 @@ def lift(walk: Record, leg: int) -> None:
     feet.planned[leg] = False
     feet.aimed[leg] = walk.orders.targeted[leg]
     feet.lifted[leg] = True
-    feet.reached[leg] = 0.0
+    feet.reached[leg], feet.seeking[leg], feet.tried[leg] = 0.0, DOWN, 0
     feet.tripped[leg] = CLEAR
     feet.detour[leg, :] = 0.0
 
@@ -130,6 +132,8 @@ def move_swinging(walk: Record) -> None:
             feet.mode[leg] = STAND
         elif feet.mode[leg] == SWING and (progress < 1.0 or not feel_ground):
             _swing(walk, leg, progress)
+        elif feet.mode[leg] == REACH and feet.seeking[leg] != DOWN:
+            seek(walk, leg)
         elif touches:
             feet.mode[leg] = STAND
         else:
@@ -224,5 +228,6 @@ def _reach(walk: Record, leg: int) -> None:
     for k in range(3):
         feet.place[leg, k] += (gait.pace * ground[k] - settings.touchdown_speed * up[k]) * dt
     feet.reached[leg] += settings.touchdown_speed * dt
-    if feet.reached[leg] > settings.reach_down or feet.place[leg, 2] < walk.model.down_limit:
+    too_deep = feet.reached[leg] > settings.reach_down or feet.place[leg, 2] < walk.model.down_limit
+    if too_deep and not begin_search(walk, leg):
         feet.mode[leg] = HANG

@@ -131,7 +131,7 @@ def advance(walk: Record) -> None:
     strides = gait.frequency * dt * gait.pace
     if reaching and strides >= until_lift - 1e-4:
         strides = 0.0
-        gait.waited += dt
+        gait.waited += 0.0 if searching(walk) else dt
         walk.answer.reasons |= NO_GROUND
         if gait.waited > walk.settings.foothold.waiting_time:
             give_up_reaching(walk)
@@ -162,6 +162,15 @@ def follow_pace(walk: Record, target: float) -> None:
         walk.answer.reasons |= SLOW_SERVOS
     gait.pace += min(max(min(target, most) - gait.pace, -change), change)
     gait.pace = min(gait.pace, pace_of_moment(walk))
+
+
+@kernel
+def searching(walk: Record) -> bool:
+    """Whether a foot looks for ground elsewhere: that ends by itself."""
+    count = 0
+    for leg in range(walk.model.legs):
+        count += walk.feet.mode[leg] == REACH and walk.feet.tried[leg] > 0
+    return count > 0
 
 
 @kernel

@@ -114,6 +114,9 @@ FEET = np.dtype(
         ("foothold", F, (LEGS, 3)),  # m, where the swing ends
         ("aimed", N, (LEGS,)),  # whether this swing ends at `target`
         ("reached", F, (LEGS,)),  # m below the expected ground
+        ("seeking", N, (LEGS,)),  # what a reaching foot does: see `ground_search`
+        ("tried", N, (LEGS,)),  # places at which it has looked for ground in this swing
+        ("goal", F, (LEGS, 2)),  # m in body, the next of them
         ("tripped", N, (LEGS,)),  # in this swing: see `trip`
         ("detour", F, (LEGS, 3)),  # m, from the swing's path to where the foot is led around what it struck
         ("stance", F, (LEGS, 3)),  # middle of every stance, shifted for the inclination

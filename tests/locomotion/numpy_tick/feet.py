@@ -6,6 +6,7 @@ from numpy_tick.stride import bezier, ground_velocity, stride_of, swing_nodes
 from numpy_tick.walkspace import room
 from robot_agent.locomotion import reasons
 from robot_agent.locomotion.feet import FOOTHOLD_SPEED
+from robot_agent.locomotion.ground_search import ACROSS, CLEARANCE, DOWN, PLACES, SHARE, SPEED, UP
 from robot_agent.locomotion.trip import BACK_SPEED, FREED, STRUCK
 from weaver_shared.transforms import rotation_exp
 
@@ -36,7 +37,9 @@ def move_swinging(walk):
             notice_trip(walk, leg, progress)
         early = progress <= walk.settings.foothold.earliest_contact or feet.tripped[leg] == STRUCK
         early = early and swinging
-        if touches and not early:
+        if not swinging and feet.seeking[leg] != DOWN:
+            seek(walk, leg)
+        elif touches and not early:
             feet.mode[leg] = STAND
         elif swinging and (progress < 1.0 or not feels):
             swing(walk, leg, progress)
@@ -144,7 +147,48 @@ def reach(walk, leg):
     feet.place[leg] += (walk.gait.pace * ground - settings.touchdown_speed * direction_of_swing(walk)) * dt
     feet.reached[leg] += settings.touchdown_speed * dt
     too_far = feet.reached[leg] > settings.reach_down or feet.place[leg, 2] < walk.model.down_limit
-    feet.mode[leg] = HANG if too_far else REACH
+    feet.mode[leg] = REACH
+    if too_far and (walk.gait.halted or feet.tried[leg] == PLACES):
+        feet.mode[leg] = HANG
+    elif too_far:
+        feet.goal[leg] = place_to_try(walk, leg, feet.tried[leg])
+        feet.tried[leg], feet.seeking[leg] = feet.tried[leg] + 1, UP
+
+
+def place_to_try(walk, leg, number):
+    """Inwards, the middle, ahead, where the foot stood last, outwards."""
+    stance, lift_off = walk.feet.stance[leg][:2], walk.feet.lift_off[leg][:2]
+    inwards = np.array([0.0, -np.sign(stance[1])])
+    ahead = -ground_velocity(walk.gait.limited, walk.feet.stance[leg])[:2]
+    way = (inwards, np.zeros(2), ahead, lift_off - stance, -inwards)[number]
+    far = np.linalg.norm(way)
+    if far <= 1e-9:
+        return stance
+    length = SHARE * room(walk, leg, *way)
+    return stance + way / far * (min(length, far) if number == 3 else length)
+
+
+def seek(walk, leg):
+    """Up, across, and along what is in the way."""
+    feet, step, plane = walk.feet, SPEED * walk.model.dt, walk.body.plane
+    place, goal, touches = feet.place[leg], feet.goal[leg], walk.senses.contact[leg] != 0
+    expected = plane @ [*goal, 1.0]
+    highest = max(feet.stance[leg][2] + walk.model.headroom[leg], place[2])
+    way = goal - place[:2]
+    far = np.linalg.norm(way)
+    if walk.gait.halted:
+        feet.seeking[leg] = DOWN
+    elif feet.seeking[leg] == UP:
+        top = min(max(feet.lift_off[leg][2], expected) + CLEARANCE, highest)
+        place[2] = max(place[2], min(place[2] + step, top))
+        feet.seeking[leg] = ACROSS if place[2] >= top else UP
+    elif touches and place[2] < highest:
+        place[2] = min(place[2] + step, highest)
+    else:
+        place[:2] += way * min(1.0, step / max(far, 1e-9))
+        feet.seeking[leg] = DOWN if far <= step or touches else ACROSS
+    if feet.seeking[leg] == DOWN:
+        feet.reached[leg] = expected - place[2]
 
 
 def take_anchors(walk):

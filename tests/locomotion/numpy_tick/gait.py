@@ -7,6 +7,7 @@ from numpy_tick.servo_pace import forget_demand, pace_for
 from numpy_tick.stride import stride_of
 from robot_agent.locomotion import reasons
 from robot_agent.locomotion.gait_clock import GLIDE
+from robot_agent.locomotion.ground_search import DOWN
 from robot_agent.locomotion.stepper import BRAKING_STRIDE, LEANT, PACE_TIME, SLOWNESS_TOLD, STOP_SLEW
 from robot_agent.locomotion.trip import CLEAR
 
@@ -65,7 +66,8 @@ def advance(walk):
     follow_pace(walk, np.clip(until_lift / BRAKING_STRIDE, 0.0, 1.0) if reaching else float(leans(walk)))
     strides = gait.frequency * dt * gait.pace
     if reaching and strides >= until_lift - 1e-4:
-        strides, gait.waited = 0.0, gait.waited + dt
+        searching = ((feet.mode == REACH) & (feet.tried > 0)).any()
+        strides, gait.waited = 0.0, gait.waited + (0.0 if searching else dt)
         walk.answer.reasons |= reasons.NO_GROUND
         if gait.waited > walk.settings.foothold.waiting_time:
             feet.mode = np.where(feet.mode == REACH, HANG, feet.mode)
@@ -117,5 +119,6 @@ def lift_feet(walk):
             load.offset[leg] = 0.0
             feet.mode[leg], feet.lifted[leg] = SWING, True
             feet.swing_height[leg], feet.reached[leg] = min(gait.height, walk.model.headroom[leg]), 0.0
+            feet.seeking[leg], feet.tried[leg] = DOWN, 0
             feet.tripped[leg], feet.detour[leg] = CLEAR, 0.0
             feet.planned[leg], feet.aimed[leg] = False, walk.orders.targeted[leg]
