@@ -7,17 +7,18 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.calibration.excitation import LEAST_RATE
 from weaver_shared.messages import ImuBatch
 
 Array = NDArray[np.float64]
 
-LEAST_TURN = 0.3
-"""rad/s"""
+LEAST_PUSH = 0.3
+"""m/s^2, root mean square over a second, for that second to count; of turns it is LEAST_RATE.
 
-LEAST_PUSH = 0.5
-"""m/s^2; both root mean squares over a second, for that second to count. Hand-held rigs reach three times as much."""
+A robot that sways its body on its feet reaches both; a rig in somebody's hands five times as much.
+"""
 
-LEAST = np.repeat([LEAST_TURN, LEAST_PUSH], 3)
+LEAST = np.repeat([LEAST_RATE, LEAST_PUSH], 3)
 
 LEVELLING = 2.0
 """Time constant with which the mean of what is felt is taken for gravity, s: no push lasts as long."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 
+from robot_agent.calibration.excitation import LEAST_SECONDS as WANTED_SECONDS
 from robot_agent.calibration.felt_motion import LEAST, FeltMotion
 from robot_agent.calibration.guidance import Wish
 from robot_agent.calibration.inertial_calibration import InertialEstimate, calibrate_imu
@@ -29,9 +30,6 @@ LONGEST = 180.0
 
 BEFORE = 100
 """Batches of samples kept before the first sighting."""
-
-WANTED_SECONDS = 4.0
-"""Of each motion."""
 
 LOOKS = 12
 """Pictures by which it is told how often one comes."""

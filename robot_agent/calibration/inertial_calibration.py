@@ -131,9 +131,14 @@ def calibrate_imu(
         1.0 / knots_per_second,
     )
     trajectory = batch.first(poses, start)
-    trajectory = batch.solve(trajectory, tell)
-    tell("how sure it is")
-    return batch.estimate(trajectory, start)
+    try:
+        trajectory = batch.solve(trajectory, tell)
+        tell("how sure it is")
+        return batch.estimate(trajectory, start)
+    except np.linalg.LinAlgError as error:
+        raise InputError(
+            "pictures and IMU samples together do not tell where the IMU is: record again, with more motion"
+        ) from error
 
 
 class _Batch:

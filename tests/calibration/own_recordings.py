@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -11,9 +10,10 @@ import numpy as np
 from robot_agent.calibration.pictures import open_pictures
 from robot_agent.recording import RecordingWriter
 from sim_agent.targets.recording import TargetRecording
+from sim_agent.targets.waved_robot import felt_ticks
 from weaver_shared import topics
 from weaver_shared.clock import SimulatedClock
-from weaver_shared.messages import ImuBatch, Proprioception, StereoFrame
+from weaver_shared.messages import StereoFrame
 from weaver_shared.robots import RobotDescription, load_robot
 
 SIZE = (320, 240)
@@ -45,36 +45,12 @@ def write_own(asl: Path, path: Path) -> Path:
     writer = RecordingWriter(path, robot_id="sim-1", robot=small_eyed(), clock=SimulatedClock(), started="now")
     samples = open_pictures(asl).inertia
     assert samples is not None
-    # A robot tells means over the interval before a stamp: of steady 200 Hz, those in whose middle we sampled.
-    samples = replace(samples, stamp_ns=samples.stamp_ns + 2_500_000)
-    felt = [_felt(samples, slice(begin, begin + 2)) for begin in range(0, len(samples.stamp_ns) - 1, 2)]
     eyes = [asl / "mav0" / eye / "data" for eye in ("cam0", "cam1")]
     seen = []
     for sequence, picture in enumerate(sorted(eyes[0].glob("*.png"))):
         left, right = (cv2.imread(str(eye / picture.name), cv2.IMREAD_GRAYSCALE) for eye in eyes)
         seen.append(StereoFrame(stamp_ns=int(picture.stem), sequence=sequence, left=left, right=right))
-    for message in sorted([*felt, *seen], key=lambda told: told.stamp_ns):
+    for message in sorted([*felt_ticks(samples, ROBOT), *seen], key=lambda told: told.stamp_ns):
         writer.write((topics.STEREO if isinstance(message, StereoFrame) else topics.PROPRIOCEPTION).key, message)
     writer.close()
     return path
-
-
-def _felt(samples: ImuBatch, tick: slice) -> Proprioception:
-    joints = np.zeros(ROBOT.joint_count)
-    return Proprioception(
-        stamp_ns=int(samples.stamp_ns[tick][-1]),
-        joint_position=joints,
-        joint_velocity=joints,
-        joint_torque=joints,
-        joint_valid=joints == 0.0,
-        joint_temperature=joints,
-        foot_contact=np.ones(6, dtype=np.bool_),
-        imu=ImuBatch(
-            stamp_ns=samples.stamp_ns[tick],
-            angular_velocity_in_imu=samples.angular_velocity_in_imu[tick],
-            specific_force_in_imu=samples.specific_force_in_imu[tick],
-        ),
-        battery_voltage=25.0,
-        supply_current=1.0,
-        motor_power=20.0,
-    )

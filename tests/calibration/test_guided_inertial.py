@@ -92,7 +92,7 @@ def test_what_lacks_is_said_in_its_order(guided: GuidedInertial, own_recording: 
     guided.feel(shaken(0.5))
     assert guided.advice().startswith("bring the target into the picture and keep it there: looking for an AprilGrid")
     assert guided.look(pair(600_000_000, frame.left))
-    assert guided.advice() == "roll it, left side up, right side up, quickly, with 0.3 rad/s or more, for 4 s more"
+    assert guided.advice() == "roll it, left side up, right side up, quickly, with 0.15 rad/s or more, for 10 s more"
     assert [motion.met for motion in guided.motions()] == [False] * 6
 
 
