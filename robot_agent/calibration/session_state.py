@@ -82,4 +82,6 @@ def state_of(running: RunningSession | None, calibrations: tuple[str, ...], fold
     filled = running.session.filled(begun)
     if not running.source.ended:
         return filled
-    return replace(filled, advice=f"all of the recording was looked at; solve, or for a better one: {filled.advice}")
+    done = "all of the recording was looked at; solve"
+    missing = not all(part.met for part in (*filled.wishes, *filled.motions))
+    return replace(filled, advice=f"{done}, or for a better one: {filled.advice}" if missing else done)
