@@ -83,5 +83,5 @@ def state_of(running: RunningSession | None, calibrations: tuple[str, ...], fold
     if not running.source.ended:
         return filled
     done = "all of the recording was looked at; solve"
-    missing = not all(part.met for part in (*filled.wishes, *filled.motions))
-    return replace(filled, advice=f"{done}, or for a better one: {filled.advice}" if missing else done)
+    nothing_lacks = all(wish.met for wish in filled.wishes) and all(motion.met for motion in filled.motions)
+    return replace(filled, advice=done if nothing_lacks else f"{done}, or for a better one: {filled.advice}")
