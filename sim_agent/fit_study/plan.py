@@ -13,8 +13,8 @@ from weaver_shared.config.adaptation import AdaptationConfig, Bounds
 from weaver_shared.errors import InputError
 from weaver_shared.robots import RobotDescription
 
-FASTER, LOWER = 1.5, 0.6
-"""How far beyond the highest frequency and the lowest stride height in use the study looks."""
+LOWEST = 0.03
+"""m, the lowest stride the study tries; lower, feet strike what perception rounds off."""
 LEVELS = {"full": (4, 5, 4), "quick": (2, 4, 3)}
 """How many values of virtual stiffness, stride frequency and stride height are tried."""
 
@@ -44,16 +44,14 @@ class Trial:
 
 
 def widened(robot: RobotDescription) -> AdaptationConfig:
-    """The robot's adaptation with the bounds between which the study looks, within what its gait can do."""
+    """The robot's adaptation with the bounds between which the study looks, up to what its gait can do."""
     used, gait = robot.adaptation, robot.locomotion
-    frequency = min(FASTER * used.stride_frequency.upper, gait.frequency_bounds[1])
-    height = max(LOWER * used.stride_height.lower, gait.height_bounds[0])
+    frequency = max(used.stride_frequency.upper, gait.frequency_bounds[1])
+    height = min(used.stride_height.lower, max(LOWEST, gait.height_bounds[0]))
     return used.model_copy(
         update={
-            "stride_frequency": used.stride_frequency.model_copy(
-                update={"upper": max(frequency, used.stride_frequency.upper)}
-            ),
-            "stride_height": used.stride_height.model_copy(update={"lower": min(height, used.stride_height.lower)}),
+            "stride_frequency": used.stride_frequency.model_copy(update={"upper": frequency}),
+            "stride_height": used.stride_height.model_copy(update={"lower": height}),
         }
     )
 

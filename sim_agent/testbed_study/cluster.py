@@ -48,7 +48,7 @@ def _client(jobs: int, scheduler: str | None) -> Iterator[Client]:
             raise InputError(f"no Dask scheduler answers at {scheduler}: {error}") from error
         return
     cluster = LocalCluster(
-        n_workers=jobs, threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address=None
+        n_workers=jobs, threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address="127.0.0.1:0"
     )
     try:
         with Client(cluster) as client:

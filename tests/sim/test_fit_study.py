@@ -64,9 +64,10 @@ def bests_of(quick=False):
 
 
 def test_the_study_looks_beyond_the_bounds_in_use():
-    used = AdaptationConfig()
-    assert USED.stride_frequency.upper == 1.5 * used.stride_frequency.upper
-    assert USED.stride_height.lower < used.stride_height.lower
+    default = ROBOT.model_copy(update={"adaptation": AdaptationConfig()})
+    assert widened(default).stride_frequency.upper == ROBOT.locomotion.frequency_bounds[1]
+    assert widened(default).stride_height.lower < default.adaptation.stride_height.lower
+    assert widened(ROBOT) == widened(ROBOT.model_copy(update={"adaptation": widened(ROBOT)}))
     tried = trials("weaver", USED, grounds_named("", quick=True), range(1), quick=True)
     assert len(tried) == 120
     assert max(one.stride_frequency for one in tried) == 1.5
@@ -178,7 +179,8 @@ def test_the_fragment_is_a_section_of_a_robot_description(tmp_path):
     text = (tmp_path / "adaptation.toml").read_text()
     assert AdaptationConfig(**tomllib.loads(text)["adaptation"]) == settings
     own = tmp_path / "robot.toml"
-    own.write_text((resources.files("weaver_shared.robots") / "weaver.toml").read_text() + "\n" + text)
+    shipped = (resources.files("weaver_shared.robots") / "weaver.toml").read_text()
+    own.write_text(shipped.partition("[adaptation]")[0] + text)
     assert robot_of(own.read_text(), "robot.toml").adaptation == settings
 
 
