@@ -97,6 +97,7 @@ class CommandDesk:
             CommandName.CLEAR_MISSION: self._clear_mission,
             CommandName.SET_OVERRIDE: self._set_override,
             CommandName.CLEAR_OVERRIDE: self._clear_override,
+            CommandName.SET_PRESET: self._set_preset,
             CommandName.SET_GAIT: self._set_gait,
             CommandName.START_CRUISE: self._moving(self._start_cruise),
             CommandName.STOP_CRUISE: self._stop_cruise,
@@ -256,7 +257,12 @@ class CommandDesk:
         with self._lock:
             mode = self._situation.mode
             names = {CommandName.STOP, CommandName.TAKE_CONTROL, CommandName.RELEASE_CONTROL, CommandName.SET_GAIT}
-            names |= {CommandName.SET_MISSION, CommandName.SET_OVERRIDE, CommandName.CLEAR_OVERRIDE}
+            names |= {
+                CommandName.SET_MISSION,
+                CommandName.SET_OVERRIDE,
+                CommandName.CLEAR_OVERRIDE,
+                CommandName.SET_PRESET,
+            }
             names |= {CommandName.SET_START_UP, CommandName.SET_POSE, CommandName.CLEAR_POSE, CommandName.SET_POSING}
             if self._stop_level:
                 if self._situation.settled:
@@ -373,6 +379,13 @@ class CommandDesk:
     def _clear_override(self, command: Command) -> Answer:
         try:
             self._overrides.clear(command.name)
+        except WeaverError as error:
+            return self._refuse(str(error))
+        return self._accept()
+
+    def _set_preset(self, command: Command) -> Answer:
+        try:
+            self._overrides.choose(command.name)
         except WeaverError as error:
             return self._refuse(str(error))
         return self._accept()

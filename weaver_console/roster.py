@@ -38,6 +38,7 @@ def describe(record: RobotRecord, now_ns: int) -> dict[str, object]:
         "joint_limits": robot.joint_limits.tolist() * robot.leg_count if robot else [],
         "gaits": list(robot.gaits) if robot else [],
         "parameters": _parameters(robot.adaptation if robot else AdaptationConfig()),
+        "presets": list((robot.adaptation if robot else AdaptationConfig()).presets),
         "motion": _motion(robot) if robot else None,
         "conflict": record.conflict(now_ns),
     }

@@ -1,4 +1,4 @@
-"""What an operator sets instead of the adaptation, for a time."""
+"""What an operator sets instead of the adaptation, for a time, and the preset that changes all of it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import math
 
 from robot_agent.adaptation.controller import rate_limited
 from robot_agent.adaptation.polynomials import PARAMETERS
-from weaver_shared.config.adaptation import AdaptationConfig
+from weaver_shared.config.adaptation import USUAL, AdaptationConfig
 from weaver_shared.errors import InputError
 from weaver_shared.messages import AdaptationReport
 
@@ -28,6 +28,7 @@ class ParameterOverrides:
     def __init__(self, config: AdaptationConfig = AdaptationConfig()) -> None:  # noqa: B008
         self._config = config
         self._held: dict[str, Override] = {}
+        self._preset = USUAL
         self._applied: dict[str, float] = {}
         self._stamp_ns: int | None = None
 
@@ -49,6 +50,12 @@ class ParameterOverrides:
             raise InputError(f"parameter {name!r} is unknown; known are {', '.join(PARAMETERS)}")
         self._held.pop(name, None)
 
+    def choose(self, preset: str) -> None:
+        """Change the adaptation by a preset until another is chosen. Raises InputError if unknown."""
+        if preset not in self._config.presets:
+            raise InputError(f"preset {preset!r:.40} is unknown; known are {', '.join(self._config.presets)}")
+        self._preset = preset
+
     @property
     def held(self) -> dict[str, Override]:
         return dict(self._held)
@@ -59,7 +66,7 @@ class ParameterOverrides:
         self._stamp_ns = stamp_ns
         self._held = {name: held for name, held in self._held.items() if stamp_ns < held.until_ns}
         for name in PARAMETERS:
-            desired = getattr(report.desired, name)
+            desired = self._by_preset(name, getattr(report.desired, name))
             wanted = self._held[name].value if name in self._held else desired
             step = getattr(self._config, name).rate * dt
             self._applied[name] = rate_limited(self._applied.get(name, desired), wanted, step)
@@ -68,4 +75,15 @@ class ParameterOverrides:
             stamp_ns=stamp_ns,
             applied=dataclasses.replace(report.desired, stamp_ns=stamp_ns, **self._applied),
             overridden=tuple(name for name in PARAMETERS if name in self._held),
+            preset=self._preset,
         )
+
+    def _by_preset(self, name: str, value: float) -> float:
+        """What the preset makes of an adapted value, within its range."""
+        preset, bounds = self._config.presets[self._preset], getattr(self._config, name)
+        changed = {
+            "virtual_stiffness": preset.stiffness * value,
+            "stride_frequency": preset.frequency * value,
+            "stride_height": value + preset.height,
+        }
+        return float(min(max(changed[name], bounds.lower), bounds.upper))

@@ -190,6 +190,32 @@ class TestOverrides:
         with pytest.raises(InputError, match="400 to 2500 N/m"):
             ParameterOverrides().set("virtual_stiffness", value, SECOND)
 
+    def test_a_preset_changes_all_that_is_adapted_at_its_rate_and_within_its_range(self):
+        overrides, report = ParameterOverrides(), self.report()
+        assert overrides.apply(report, 0).preset == "usual"
+        overrides.choose("careful")
+        trace = [overrides.apply(report, k * SECOND // 100) for k in range(1, 600)]
+        assert max(abs(np.diff([r.applied.stride_frequency for r in trace]))) <= 0.0035 + 1e-6
+        applied = trace[-1].applied
+        assert trace[-1].preset == "careful"
+        assert trace[-1].desired == report.desired
+        assert applied.virtual_stiffness == pytest.approx(0.8 * 2500.0)
+        assert applied.stride_frequency == pytest.approx(0.6)
+        assert applied.stride_height == pytest.approx(0.07)
+
+    def test_a_preset_stays_within_the_range_and_an_override_beats_it(self):
+        overrides, rough = ParameterOverrides(), settled(AdaptationController(), Ground(1.0, 1.0))
+        overrides.choose("careful")
+        overrides.set("stride_height", 0.06, 100 * SECOND)
+        for k in range(1000):
+            applied = overrides.apply(rough, k * SECOND // 100).applied
+        assert (applied.virtual_stiffness, applied.stride_frequency) == (400.0, 0.3)
+        assert applied.stride_height == pytest.approx(0.06)
+
+    def test_an_unknown_preset_is_refused_with_the_known_ones(self):
+        with pytest.raises(InputError, match="usual, careful"):
+            ParameterOverrides().choose("reckless")
+
     def test_unknown_names_are_refused_with_the_known_ones(self):
         for act in (lambda o: o.set("colour", 1.0, 0), lambda o: o.clear("colour")):
             with pytest.raises(InputError, match="stride_frequency"):

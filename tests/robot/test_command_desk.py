@@ -190,6 +190,11 @@ def test_an_override_outside_its_range_is_refused_with_the_range(ada: Operator) 
     assert ada.says(CommandName.SET_OVERRIDE, name="stride_height", value=0.1).applied_value == 0.1
 
 
+def test_a_preset_is_chosen_by_its_name(ada: Operator) -> None:
+    assert ada.says(CommandName.SET_PRESET, name="careful").accepted
+    assert "known are usual" in ada.says(CommandName.SET_PRESET, name="reckless").reason
+
+
 def test_an_unknown_gait_is_refused_with_the_known_ones(desk: CommandDesk, ada: Operator) -> None:
     assert "tripod" in ada.says(CommandName.SET_GAIT, name="gallop").reason
     assert ada.says(CommandName.SET_GAIT, name="wave").accepted

@@ -23,6 +23,26 @@ class Bounds(BaseModel):
         return self
 
 
+class Preset(BaseModel):
+    """A change of the whole adaptation that an operator chooses by name."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    stiffness: Positive = 1.0  # factor of the virtual stiffness
+    frequency: Positive = 1.0  # factor of the stride frequency
+    height: float = 0.0  # m on top of the stride height
+
+
+USUAL = "usual"
+PRESETS = {
+    USUAL: Preset(),
+    "careful": Preset(stiffness=0.8, frequency=0.6, height=0.02),
+    "high steps": Preset(height=0.04),
+    "soft": Preset(stiffness=0.5),
+}
+"""Careful: for ground that gives way or must not be touched; high steps: grass and rubbish that cameras see through."""
+
+
 class AdaptationConfig(BaseModel):
     """Polynomials over roughness r and step height h, both 0..1, and what keeps the gait calm.
 
@@ -38,6 +58,7 @@ class AdaptationConfig(BaseModel):
     virtual_stiffness: Bounds = Bounds(lower=400.0, upper=2500.0, rate=1500.0)  # N/m
     stride_frequency: Bounds = Bounds(lower=0.3, upper=1.0, rate=0.35)  # Hz
     stride_height: Bounds = Bounds(lower=0.05, upper=0.14, rate=0.06)  # m
+    presets: dict[str, Preset] = PRESETS
     backlash: Annotated[float, Field(ge=0.0, lt=1.0)] = 0.03  # r and h fall only by what exceeds it; they rise at once
     smallest_health: Annotated[float, Field(ge=0.0, le=1.0)] = 0.3  # of the pictures, below which the gait is safe
     health_time: Positive = 0.5  # s, smooths the health

@@ -20,6 +20,7 @@ class CommandName(StrEnum):
     CLEAR_MISSION = "clear_mission"
     SET_OVERRIDE = "set_override"  # name, value, seconds
     CLEAR_OVERRIDE = "clear_override"  # name
+    SET_PRESET = "set_preset"  # name of a preset of the adaptation
     SET_GAIT = "set_gait"  # name
     START_CRUISE = "start_cruise"  # name: forward, left (m/s), turn (rad/s), value; or stick: as it is now; seconds
     STOP_CRUISE = "stop_cruise"

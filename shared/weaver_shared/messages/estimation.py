@@ -99,6 +99,7 @@ class AdaptationReport:
     desired: GaitParameters  # from the polynomials
     applied: GaitParameters  # after overrides and rate limits
     overridden: tuple[str, ...]  # names of GaitParameters fields an operator holds
+    preset: str = ""  # by which an operator changes the adaptation; empty before the walk loop has filled it in
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,6 +4,7 @@ import { useState } from "react";
 import { Panel } from "../components/Panel";
 import { GroundReadings } from "./GroundReadings";
 import { ParameterControl } from "./ParameterControl";
+import { PresetPicker } from "./PresetPicker";
 import { useParameters } from "./parameters";
 
 const DURATIONS = [
@@ -31,6 +32,7 @@ export function AdaptationPanel() {
       }
     >
       <GroundReadings />
+      <PresetPicker />
       {useParameters().map((parameter) => (
         <ParameterControl key={parameter.name} parameter={parameter} seconds={Number(seconds)} />
       ))}

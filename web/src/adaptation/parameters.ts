@@ -17,8 +17,8 @@ export interface Parameter {
 /** Ranges as the shipped robots have them, shown while no robot has told its own. */
 const ADAPTED: readonly Parameter[] = [
   { name: "virtual_stiffness", label: "Virtual stiffness", unit: "N/m", digits: 0, step: 10, lower: 400, upper: 2500 },
-  { name: "stride_frequency", label: "Stride frequency", unit: "Hz", digits: 2, step: 0.01, lower: 0.3, upper: 1.0 },
-  { name: "stride_height", label: "Stride height", unit: "m", digits: 3, step: 0.001, lower: 0.05, upper: 0.14 },
+  { name: "stride_frequency", label: "Stride frequency", unit: "Hz", digits: 2, step: 0.01, lower: 0.3, upper: 1.5 },
+  { name: "stride_height", label: "Stride height", unit: "m", digits: 3, step: 0.001, lower: 0.03, upper: 0.14 },
 ];
 
 export function useParameters(): readonly Parameter[] {

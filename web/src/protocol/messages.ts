@@ -25,6 +25,7 @@ export const COMMAND_NAMES = [
   "clear_mission",
   "set_override",
   "clear_override",
+  "set_preset",
   "set_gait",
   "start_cruise",
   "stop_cruise",
@@ -153,6 +154,7 @@ export interface AdaptationReport {
   desired: GaitParameters;
   applied: GaitParameters;
   overridden: string[];
+  preset: string;
 }
 
 export interface PowerState {

@@ -41,6 +41,7 @@ export interface RobotEntry {
   leg_names: string[];
   joint_names: string[];
   gaits: string[];
+  presets: string[];
   joint_limits: [number, number][];
   /** What an operator may set of the adapted parameters; absent names are not adjustable. */
   parameters?: Record<string, { lower: number; upper: number; unit: string }>;
