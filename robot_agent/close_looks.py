@@ -24,6 +24,7 @@ class CloseLooks:
         self._lock = threading.Lock()
         self._waiting: list[Future[Answer]] = []
         self._looked_ns: int | None = None
+        self._looking = False
 
     def ask(self, command: Command) -> Answer:
         """Wait for a look; called on the bus's threads."""
@@ -36,8 +37,13 @@ class CloseLooks:
             return answer.result(self._patience)
         except NoAnswerError:
             with self._lock:
-                if answer in self._waiting:
-                    self._waiting.remove(answer)
+                if answer.done():
+                    return answer.result()
+                self._waiting.remove(answer)
+                if self._looking:
+                    return Answer(
+                        accepted=True, reason="the look is still at work; an event will tell what it measured"
+                    )
             reason = f"no picture was processed within {self._patience:g} s; the cameras or the odometry are silent"
             return Answer(accepted=False, reason=reason)
 
@@ -48,15 +54,17 @@ class CloseLooks:
             return len(self._waiting)
 
     def due(self, stamp_ns: int) -> bool:
-        """Whether the picture of this stamp is to be looked at closely."""
+        """Whether the picture of this stamp is to be looked at closely; from then on a look is at work."""
         with self._lock:
             rested = self._looked_ns is None or abs(stamp_ns - self._looked_ns) >= REST_NS
-            return rested and bool(self._waiting)
+            self._looking = rested and bool(self._waiting)
+            return self._looking
 
     def answer(self, look: CloseLook) -> None:
         """Tell all who wait how many cells were measured, or why none."""
         with self._lock:
             self._looked_ns = look.stamp_ns
+            self._looking = False
             waiting, self._waiting = self._waiting, []
-        for answer in waiting:
-            answer.set_result(Answer(accepted=look.cells > 0, reason=look.reason, applied_value=float(look.cells)))
+            for answer in waiting:
+                answer.set_result(Answer(accepted=look.cells > 0, reason=look.reason, applied_value=float(look.cells)))

@@ -168,6 +168,7 @@ def test_a_person_walks_the_robot_to_two_clicked_waypoints_and_stops_it(product:
     anna.press("Stand")
     robot.wait_until(lambda newest: newest["state/mode"].mode == "STAND", 30.0, "it does not stand")
 
+    _look_closely(anna, robot)
     known_at_start = _known_area(robot.ground)
     for ahead, aside in ((0.9, 0.1), (1.4, -0.1)):
         anna.click_ground(_on_ground(robot.ground, (begun_at[0] + ahead, begun_at[1] + aside)), begun_at)
@@ -191,6 +192,14 @@ def test_a_person_walks_the_robot_to_two_clicked_waypoints_and_stops_it(product:
     assert {url.split("/")[2] for url in anna.requested if url.startswith(("http", "ws"))} == {
         product.address.split("/")[2]
     }
+
+
+def _look_closely(anna: Operator, robot: Any) -> None:
+    anna.press("Look closely")
+    robot.wait_until(
+        lambda _: any("close look measured" in event.text for event in robot.events), 15.0, "no close look is told of"
+    )
+    expect(anna.page.get_by_role("log", name="Events")).to_contain_text("cells, typically to", timeout=PATIENT)
 
 
 def _override_and_release(anna: Operator, robot: Any) -> None:

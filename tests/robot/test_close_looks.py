@@ -74,6 +74,15 @@ def test_without_a_picture_it_is_refused_and_forgotten() -> None:
     assert not looks.due(0)
 
 
+def test_a_look_that_takes_long_is_not_taken_for_silence(workers: ThreadPoolExecutor) -> None:
+    looks = CloseLooks(1.0)
+    answer = asked(workers, looks, 0).result()
+    assert answer.accepted
+    assert "still at work" in answer.reason
+    looks.answer(SEEN)
+    assert looks.waiting == 0
+
+
 def test_other_commands_are_refused_at_once() -> None:
     stand = Command(command=CommandName.STAND, operator="anna", lease_epoch=0, sequence=1)
     assert "does not know stand" in CloseLooks(LONG).ask(stand).reason

@@ -3,6 +3,7 @@ import { Button } from "@mantine/core";
 import { useState } from "react";
 import { command } from "../console/commands";
 import { unreachable } from "../console/control";
+import { notify } from "../console/notices";
 import { useConsole } from "../console/store";
 
 export function LookClosely() {
@@ -10,8 +11,9 @@ export function LookClosely() {
   const [waiting, setWaiting] = useState(false);
   const look = async () => {
     setWaiting(true);
-    await command("look_closely");
+    const { accepted, applied_value: cells } = await command("look_closely");
     setWaiting(false);
+    if (accepted && cells !== null && cells > 0) notify("info", `Look closely measured ${cells} cells of the map.`);
   };
   return (
     <Button

@@ -1,4 +1,4 @@
-/** Asking the robot for something, and what became of it. Refusals reach the operator as a notice. */
+/** Asking the robot for something, and what became of it. Refusals and remarks reach the operator as a notice. */
 import type { CommandName } from "../protocol/messages";
 import type { Answer, CommandFields } from "../protocol/wire";
 import { notify } from "./notices";
@@ -68,6 +68,7 @@ function refusal(reason: string): Outcome {
 
 function reported(name: string, outcome: Outcome): Outcome {
   if (!outcome.accepted) notify("error", `${spoken(name)} was refused: ${outcome.reason}`);
+  else if (outcome.reason !== "") notify("info", `${spoken(name)}: ${outcome.reason}`);
   return outcome;
 }
 
