@@ -95,6 +95,8 @@ class CommandDesk:
             CommandName.START_MISSION: self._start_mission,
             CommandName.PAUSE_MISSION: self._pause_mission,
             CommandName.CLEAR_MISSION: self._clear_mission,
+            CommandName.SKIP_WAYPOINT: self._skip_waypoint,
+            CommandName.RETURN_TO_START: self._return_to_start,
             CommandName.SET_OVERRIDE: self._set_override,
             CommandName.CLEAR_OVERRIDE: self._clear_override,
             CommandName.SET_PRESET: self._set_preset,
@@ -175,7 +177,7 @@ class CommandDesk:
                 attended=self._authority.epoch > 0,
                 gait=self._gait,
                 mission_active=self._mission.phase == "active",
-                waypoints=self._mission.waypoints,
+                waypoints=self._mission.walked,
                 mission_serial=self._mission.serial,
                 teleop_velocity=steered if steered is not None else self._cruise.velocity(self._situation.stamp_ns),
                 posing=self._motion.posing,
@@ -188,10 +190,18 @@ class CommandDesk:
             )
 
     def mission_progress(
-        self, *, index: int, cross_track_error: float, distance_left: float, lookahead: np.ndarray, done: bool
+        self,
+        *,
+        serial: int,
+        index: int,
+        cross_track_error: float,
+        distance_left: float,
+        lookahead: np.ndarray,
+        done: bool,
     ) -> None:
+        """Take how far the follower is on the mission of this serial number; it may have been replaced meanwhile."""
         with self._lock:
-            if self._mission.phase != "active":
+            if self._mission.phase != "active" or serial != self._mission.serial:
                 return
             self._mission.progress(
                 index=index, cross_track_error=cross_track_error, distance_left=distance_left, lookahead=lookahead
@@ -277,17 +287,25 @@ class CommandDesk:
                 names.add(CommandName.CHANGE_POSTURE)
             if self._legs.orders:
                 names |= {CommandName.LOWER_LEG, CommandName.MOVE_TIP, CommandName.MOVE_JOINT}
-            if self._mission.phase in ("ready", "paused") and mode in ("STAND", "WALK"):
-                names.add(CommandName.START_MISSION)
-            if self._mission.phase == "active":
-                names.add(CommandName.PAUSE_MISSION)
             if mode in ("STAND", "WALK"):
                 names.add(CommandName.PLACE_FOOT)
             if self._mission.phase != "active" and mode in ("STAND", "WALK"):
                 names |= {CommandName.START_CRUISE, CommandName.STOP_CRUISE}
-            if self._mission.phase != "empty":
-                names.add(CommandName.CLEAR_MISSION)
-            return tuple(sorted(names))
+            return tuple(sorted(names | self._allowed_of_mission(mode)))
+
+    def _allowed_of_mission(self, mode: str) -> set[CommandName]:
+        phase, names = self._mission.phase, set[CommandName]()
+        if mode in ("STAND", "WALK"):
+            names.add(CommandName.RETURN_TO_START)
+            if phase in ("ready", "paused"):
+                names.add(CommandName.START_MISSION)
+        if phase == "active":
+            names.add(CommandName.PAUSE_MISSION)
+        if phase in ("active", "paused"):
+            names.add(CommandName.SKIP_WAYPOINT)
+        if phase != "empty":
+            names.add(CommandName.CLEAR_MISSION)
+        return names
 
     def _take_control(self, command: Command, now_ns: int) -> Answer:
         if not command.operator.strip():
@@ -346,17 +364,37 @@ class CommandDesk:
         return self._refuse(refusal) if refusal else self._accept(float(len(command.waypoints)))
 
     def _start_mission(self, _: Command) -> Answer:
-        if self._stop_level:
-            return self._refuse("the robot is stopped; release the stop first")
-        if self._situation.mode not in ("STAND", "WALK", "HOLD"):
-            return self._refuse(f"the robot must stand before it walks; it is in {self._situation.mode}")
-        if self._legs.orders:
-            return self._refuse("legs are lifted; lower them before walking")
-        refusal = self._mission.start()
+        refusal = self._walk_refusal() or self._mission.start(self._situation.robot_xy)
         if refusal:
             return self._refuse(refusal)
         self._cruise.stop()
         return self._accept()
+
+    def _skip_waypoint(self, _: Command) -> Answer:
+        """The applied value is the number of the waypoint gone to next, 0 when there was no other."""
+        refusal = self._mission.skip()
+        if refusal:
+            return self._refuse(refusal)
+        if self._mission.phase == "done":
+            self.note(Severity.INFO, "the mission is done: its last waypoint was skipped")
+        total, left = len(self._mission.waypoints), len(self._mission.ahead)
+        return self._accept(float(total - left + 1) if left else 0.0)
+
+    def _return_to_start(self, _: Command) -> Answer:
+        """The applied value is the number of waypoints on the way back."""
+        refusal = self._walk_refusal() or self._mission.turn_back(self._situation.robot_xy)
+        if refusal:
+            return self._refuse(refusal)
+        self._cruise.stop()
+        return self._accept(float(len(self._mission.waypoints)))
+
+    def _walk_refusal(self) -> str:
+        """Why no mission can be walked now, whatever its waypoints."""
+        if self._stop_level:
+            return "the robot is stopped; release the stop first"
+        if self._situation.mode not in ("STAND", "WALK", "HOLD"):
+            return f"the robot must stand before it walks; it is in {self._situation.mode}"
+        return "legs are lifted; lower them before walking" if self._legs.orders else ""
 
     def _pause_mission(self, _: Command) -> Answer:
         self._mission.pause()

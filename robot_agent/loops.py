@@ -77,6 +77,7 @@ class WalkLoop:
         self._telemetry = Telemetry(bus=bus, robot_id=robot_id, robot=robot, presence=presence, rate=CONTROL_RATE)
         self._meter = LoopMeter("walk", CONTROL_RATE)
         self._headway = Headway()
+        self._mission_serial = 0
         self._last_estimate: OdometryEstimate | None = None
         self._ticks = 0
         bus.subscribe(robot_id, topics.ODOMETRY, lambda _id, _key, message: self._odometry.put(message))
@@ -107,11 +108,14 @@ class WalkLoop:
             self._pipeline.adapt(report)
         if (route := self._route.take()) is not None:
             self._pipeline.take_route(route)
-        return self._pipeline.step(sensed, self.desk.orders())
+        orders = self.desk.orders()
+        self._mission_serial = orders.mission_serial
+        return self._pipeline.step(sensed, orders)
 
     def _after(self, tick: WalkTick, sensed: Proprioception) -> None:
         if tick.follower is not None:
             self.desk.mission_progress(
+                serial=self._mission_serial,
                 index=tick.follower.index - 1,
                 cross_track_error=tick.follower.cross_track_error,
                 distance_left=tick.follower.distance_left,

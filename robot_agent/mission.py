@@ -12,6 +12,9 @@ from weaver_shared.messages import MissionState, Waypoint
 
 WAYS = ("", "auto")
 
+AT_HOME = 0.15
+"""m from the start within which there is nothing to return to: a little more than a last waypoint is reached to."""
+
 
 class Mission:
     """Phases: empty -> ready -> active <-> paused -> done. Changing the waypoints leaves an active mission paused."""
@@ -23,9 +26,28 @@ class Mission:
         self.serial = 0
         self.find_way = False  # waypoints are goals, ways between them are found over the map
         self._next = 0
+        self._first = 0  # waypoints before it are behind the robot or were skipped: the way walked begins at this one
+        self._reached: tuple[Waypoint, ...] = ()  # since the mission began, in order: known to be a way back
+        self._home = Waypoint(x=0.0, y=0.0)
+        self._returning = False
         self._cross_track_error = 0.0
         self._distance_left = 0.0
         self._lookahead = np.full(2, nan)
+
+    @property
+    def home(self) -> Waypoint:
+        """Where the mission began; before the first one the origin, where the robot's own world begins."""
+        return self._home
+
+    @property
+    def walked(self) -> tuple[Waypoint, ...]:
+        """The waypoints that are walked through: without those that were skipped."""
+        return self.waypoints[self._first :]
+
+    @property
+    def ahead(self) -> tuple[Waypoint, ...]:
+        """The waypoints still to come."""
+        return self.waypoints[self._next :]
 
     def replace(self, waypoints: Sequence[Waypoint], robot_xy: tuple[float, float], how: str = "") -> str:
         """Take new waypoints; returns why they are refused, or an empty string.
@@ -59,10 +81,11 @@ class Mission:
             return ""
         self.waypoints = tuple(waypoints)
         self.phase = "ready" if waypoints else "empty"
+        self._returning = False
         self._begin()
         return ""
 
-    def start(self) -> str:
+    def start(self, robot_xy: tuple[float, float]) -> str:
         """Begin, or go on after a pause; returns why not, or an empty string."""
         if not self.waypoints:
             return "there is no waypoint to walk to; add one first"
@@ -70,6 +93,35 @@ class Mission:
             return "the mission is done; set new waypoints first"
         if self.phase == "ready":
             self._begin()
+            self._home, self._reached = Waypoint(x=robot_xy[0], y=robot_xy[1]), ()
+        self.phase = "active"
+        return ""
+
+    def skip(self) -> str:
+        """Leave out the waypoint being approached; returns why not, or an empty string."""
+        if self.phase not in ("active", "paused"):
+            return "no mission is under way, so there is no waypoint to skip"
+        if self._next + 1 >= len(self.waypoints):
+            self.finish()
+            return ""
+        self.serial += 1
+        self._first = self._next = self._next + 1
+        return ""
+
+    def way_home(self) -> tuple[Waypoint, ...]:
+        """Back through the waypoints already reached, which the robot knows to be a way, unless it finds its own."""
+        if self._returning:
+            return self.ahead or (self._home,)
+        return (*(() if self.find_way else self._reached[::-1]), self._home)
+
+    def turn_back(self, robot_xy: tuple[float, float]) -> str:
+        """Walk back to where the mission began; returns why not, or an empty string."""
+        home = self._home
+        if hypot(home.x - robot_xy[0], home.y - robot_xy[1]) < AT_HOME:
+            return f"the robot is at the start already (x {home.x:.2f} m, y {home.y:.2f} m)"
+        self.waypoints = self.way_home()
+        self._begin()
+        self._returning, self._reached = True, ()
         self.phase = "active"
         return ""
 
@@ -84,6 +136,9 @@ class Mission:
         self._lookahead = np.full(2, nan)
 
     def progress(self, *, index: int, cross_track_error: float, distance_left: float, lookahead: np.ndarray) -> None:
+        """Take how far the follower is; `index` counts the waypoints that are `walked`."""
+        index = min(self._first + max(index, 0), len(self.waypoints))
+        self._reached += self.waypoints[self._next : index]
         self._next = index
         self._cross_track_error = cross_track_error
         self._distance_left = distance_left
@@ -102,7 +157,7 @@ class Mission:
 
     def _begin(self) -> None:
         self.serial += 1
-        self._next = 0
+        self._next = self._first = 0
         self._cross_track_error = 0.0
         self._distance_left = 0.0
         self._lookahead = np.full(2, nan)

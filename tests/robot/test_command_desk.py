@@ -2,6 +2,7 @@
 
 from math import inf, nan
 
+import numpy as np
 import pytest
 
 from robot_agent.adaptation import ParameterOverrides
@@ -59,10 +60,14 @@ def ada(desk: CommandDesk) -> Operator:
     return ada
 
 
-def observe(desk: CommandDesk, mode: str = "STAND", blockers: tuple[str, ...] = ()) -> None:
-    desk.observe(
-        Situation(stamp_ns=0, robot_xy=(1.0, 0.0), mode=mode, settled=mode in ("OFF", "READY"), stand_blockers=blockers)
-    )
+def observe(
+    desk: CommandDesk,
+    mode: str = "STAND",
+    blockers: tuple[str, ...] = (),
+    robot_xy: tuple[float, float] = (1.0, 0.0),
+) -> None:
+    settled = mode in ("OFF", "READY")
+    desk.observe(Situation(stamp_ns=0, robot_xy=robot_xy, mode=mode, settled=settled, stand_blockers=blockers))
 
 
 def test_nothing_moves_without_control(desk: CommandDesk) -> None:
@@ -159,6 +164,31 @@ def test_appending_a_waypoint_under_way_does_not_start_over(desk: CommandDesk, a
     assert desk.orders().mission_serial == serial
 
 
+def test_a_waypoint_is_skipped_and_the_way_back_is_walked(desk: CommandDesk, ada: Operator) -> None:
+    first, second = Waypoint(x=2.0, y=0.0), Waypoint(x=3.0, y=0.0)
+    assert "no mission is under way" in ada.says(CommandName.SKIP_WAYPOINT).reason
+    ada.says(CommandName.SET_MISSION, waypoints=(first, second))
+    ada.says(CommandName.START_MISSION)
+    before = desk.orders().mission_serial
+    assert ada.says(CommandName.SKIP_WAYPOINT).applied_value == 2.0
+    assert desk.orders().waypoints == (second,)
+    assert "at the start already" in ada.says(CommandName.RETURN_TO_START).reason
+    progress(desk, before, index=1)  # of the mission as it was before: comes too late
+    assert desk.mission(0).next_waypoint == 1
+    progress(desk, desk.orders().mission_serial, index=1)
+    observe(desk, "STAND", robot_xy=(3.0, 0.0))
+    assert ada.says(CommandName.RETURN_TO_START).applied_value == 2.0
+    assert desk.orders().waypoints == (second, Waypoint(x=1.0, y=0.0))
+    observe(desk, "SIT", robot_xy=(3.0, 0.0))
+    assert "must stand" in ada.says(CommandName.RETURN_TO_START).reason
+
+
+def progress(desk: CommandDesk, serial: int, index: int) -> None:
+    desk.mission_progress(
+        serial=serial, index=index, cross_track_error=0.0, distance_left=1.0, lookahead=np.zeros(2), done=False
+    )
+
+
 def test_the_stick_falls_silent_after_three_tenths_of_a_second(
     desk: CommandDesk, ada: Operator, clock: SimulatedClock
 ) -> None:
@@ -222,7 +252,7 @@ def test_the_allowed_commands_are_the_ones_that_get_accepted(desk: CommandDesk, 
     ada.says(CommandName.SET_MISSION, waypoints=(Waypoint(x=2.0, y=0.0),))
     assert "start_mission" in desk.allowed()
     ada.says(CommandName.START_MISSION)
-    assert {"pause_mission", "clear_mission"} <= set(desk.allowed())
+    assert {"pause_mission", "clear_mission", "skip_waypoint", "return_to_start"} <= set(desk.allowed())
     ada.says(CommandName.STOP)
     assert "release_stop" not in desk.allowed()
     observe(desk, "READY")

@@ -18,6 +18,8 @@ class CommandName(StrEnum):
     START_MISSION = "start_mission"
     PAUSE_MISSION = "pause_mission"
     CLEAR_MISSION = "clear_mission"
+    SKIP_WAYPOINT = "skip_waypoint"  # leave out the one being approached
+    RETURN_TO_START = "return_to_start"  # walk back to where the mission began, through the waypoints reached
     SET_OVERRIDE = "set_override"  # name, value, seconds
     CLEAR_OVERRIDE = "clear_override"  # name
     SET_PRESET = "set_preset"  # name of a preset of the adaptation

@@ -1,4 +1,4 @@
-/** Start, pause and clear. Starting sends what the robot has not got yet. */
+/** Start, pause, skip, return and clear. Starting sends what the robot has not got yet. */
 import { Button } from "@mantine/core";
 import { CommandButton } from "../components/CommandButton";
 import { command } from "../console/commands";
@@ -39,6 +39,13 @@ export function MissionButtons({ unsent }: { unsent: boolean }) {
       </Button>
       <CommandButton name="pause_mission" variant="default" className="grow">
         Pause mission
+      </CommandButton>
+      <span className="break" />
+      <CommandButton name="skip_waypoint" variant="default" size="xs" className="grow">
+        Skip waypoint
+      </CommandButton>
+      <CommandButton name="return_to_start" variant="default" size="xs" className="grow">
+        Return to start
       </CommandButton>
       {sending !== null && !empty && <p className="hint">Not possible now: {sending}.</p>}
       {active && unsent && <p className="hint">Start mission sends the changes and goes on with them.</p>}

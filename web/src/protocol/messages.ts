@@ -23,6 +23,8 @@ export const COMMAND_NAMES = [
   "start_mission",
   "pause_mission",
   "clear_mission",
+  "skip_waypoint",
+  "return_to_start",
   "set_override",
   "clear_override",
   "set_preset",
