@@ -35,6 +35,7 @@ from weaver_shared.messages import (
     MotionOrders,
     Severity,
     TeleopFrame,
+    Waypoint,
 )
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import Pose
@@ -244,6 +245,11 @@ class CommandDesk:
     def mission(self, stamp_ns: int) -> MissionState:
         with self._lock:
             return self._mission.state(stamp_ns)
+
+    def home(self) -> Waypoint:
+        """Where the mission began, to which it returns."""
+        with self._lock:
+            return self._mission.home
 
     def motion(self) -> MotionOrders:
         """What is asked of body and legs beyond walking."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from robot_agent.commands import CommandDesk
 from robot_agent.pipeline import WalkTick
+from robot_agent.walking_pace import WalkingPace, expected_speed
 from weaver_shared import topics
 from weaver_shared.bus import Bus
 from weaver_shared.frames import GRAVITY
@@ -18,6 +19,7 @@ from weaver_shared.messages import (
     Heartbeat,
     LocomotionState,
     LoopTiming,
+    MissionOutlook,
     ModeState,
     NavigationGoal,
     OdometryEstimate,
@@ -81,12 +83,13 @@ class Telemetry:
         self._rate = rate
         self._count = 0
         self._ledger = PowerLedger(robot)
+        self._pace = WalkingPace()
         self._mode = ""
         self._goal: NavigationGoal | None = None
 
     def publish(self, tick: WalkTick, sensed: Proprioception, desk: CommandDesk) -> None:
         """Send what is due in this tick."""
-        self._ledger.add(sensed, tick.state.world_from_body.position)
+        self._measure(tick, sensed)
         self._publish(topics.PROPRIOCEPTION, sensed)
         if self._due(topics.HEARTBEAT):
             beat = Heartbeat(stamp_ns=tick.stamp_ns, sequence=self._count, session=self._presence.session)
@@ -110,12 +113,38 @@ class Telemetry:
             self._publish(topics.LEASE, desk.lease())
         if self._due(topics.MOTION):
             self._publish(topics.MOTION, desk.motion())
-        if self._due(topics.MISSION):
-            self._publish(topics.MISSION, desk.mission(tick.stamp_ns))
-        self._publish_goal(tick)
+        self._publish_mission(tick, desk)
         for event in desk.take_events():
             self._publish(topics.EVENT, event)
         self._count += 1
+
+    def _measure(self, tick: WalkTick, sensed: Proprioception) -> None:
+        position = tick.state.world_from_body.position
+        self._ledger.add(sensed, position)
+        power = sensed.battery_voltage * sensed.supply_current
+        place = float(position[0]), float(position[1])
+        self._pace.add(tick.stamp_ns, place, power, walking=tick.follower is not None)
+
+    def _publish_mission(self, tick: WalkTick, desk: CommandDesk) -> None:
+        if self._due(topics.MISSION):
+            self._publish(topics.MISSION, desk.mission(tick.stamp_ns))
+        if self._due(topics.OUTLOOK):
+            self._publish(topics.OUTLOOK, self._outlook(tick, desk))
+        self._publish_goal(tick)
+
+    def _outlook(self, tick: WalkTick, desk: CommandDesk) -> MissionOutlook:
+        pace, home = self._pace, desk.home()
+        measured = pace.measured_over > 0.0
+        expected = expected_speed(self._robot, desk.orders().gait, tick.report.applied.stride_frequency)
+        return MissionOutlook(
+            stamp_ns=tick.stamp_ns,
+            start_in_world=np.array([home.x, home.y]),
+            speed=pace.speed if measured else expected,
+            speed_basis="measured" if measured else "gait",
+            measured_over=pace.measured_over,
+            energy_per_metre=pace.energy_per_metre,
+            cost_of_transport=pace.energy_per_metre / (self._robot.mass * GRAVITY),
+        )
 
     def publish_health(
         self, timing: LoopTiming, sensed: Proprioception, odometry: OdometryEstimate | None, odometry_age: float

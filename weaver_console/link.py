@@ -33,6 +33,7 @@ WATCHED: tuple[Topic, ...] = (
     topics.MOTION,
     topics.LEASE,
     topics.MISSION,
+    topics.OUTLOOK,
     topics.RECORDING,
     topics.CALIBRATION,
     topics.TRUTH,

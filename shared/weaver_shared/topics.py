@@ -80,6 +80,7 @@ MODE = _topic("state/mode", m.ModeState, 5.0, Priority.INTERACTIVE, Policy.RELIA
 MOTION = _topic("state/motion", m.MotionOrders, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 LEASE = _topic("state/lease", m.LeaseState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 MISSION = _topic("state/mission", m.MissionState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
+OUTLOOK = _topic("state/outlook", m.MissionOutlook, 2.0, Priority.DATA, Policy.RELIABLE)
 RECORDING = _topic("state/recording", m.RecordingState, 1.0, Priority.DATA, Policy.RELIABLE)
 CALIBRATION = _topic("state/calibration", m.CalibrationState, 2.0, Priority.DATA, Policy.RELIABLE)
 PRESENCE = _topic("state/presence", m.Presence, 1.0, Priority.DATA, Policy.RELIABLE)

@@ -77,6 +77,19 @@ class MissionState:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class MissionOutlook:
+    """What time and energy a mission takes are estimated from, 2 Hz."""
+
+    stamp_ns: int
+    start_in_world: Array  # (2,) m where the mission began, to which the robot returns
+    speed: float  # m/s along the way, turning and slowing down included
+    speed_basis: str  # "measured"; or "gait": the most that stride frequency and stride allow, nothing was walked yet
+    measured_over: float  # m of missions, the last ones walked; 0: nothing was measured
+    energy_per_metre: float  # J/m of the whole supply, measured likewise; NaN unknown
+    cost_of_transport: float  # eq. 12, the same over the robot's weight; NaN unknown
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class RobotState:
     """Body, joints and feet, 50 Hz. Pose is the odometry propagated to now."""
 

@@ -7,6 +7,7 @@ import type {
   Health,
   LeaseState,
   LocomotionState,
+  MissionOutlook,
   MissionState,
   ModeState,
   MotionOrders,
@@ -28,6 +29,7 @@ export interface Topics {
   "state/motion": MotionOrders;
   "state/lease": LeaseState;
   "state/mission": MissionState;
+  "state/outlook": MissionOutlook;
   "state/recording": RecordingState;
   "state/calibration": CalibrationState;
   "truth/state": TruthState;

@@ -7,6 +7,7 @@ import { positionOf } from "../map/strokes";
 import { sameWaypoints } from "./draft";
 import { useDraft } from "./draftStore";
 import { MissionButtons } from "./MissionButtons";
+import { MissionOutlook } from "./MissionOutlook";
 import { MissionProgress } from "./MissionProgress";
 import { pathLength } from "./path";
 import { SavedMissions } from "./SavedMissions";
@@ -50,6 +51,7 @@ export function MissionPanel() {
         <MissionButtons unsent={unsent} />
       </div>
       <MissionProgress />
+      <MissionOutlook edited={draft.waypoints.length > 0 ? length : null} unsent={unsent} />
       <SavedMissions />
     </Panel>
   );

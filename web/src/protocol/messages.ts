@@ -85,6 +85,20 @@ export interface MissionState {
   lookahead_in_world: Maybe[];
 }
 
+/** What time and energy of a mission are estimated from. */
+export interface MissionOutlook {
+  stamp_ns: number;
+  start_in_world: Maybe[];
+  /** m/s along the way. */
+  speed: Maybe;
+  speed_basis: "measured" | "gait";
+  /** m of way that speed and energy were measured over; 0: not measured. */
+  measured_over: number;
+  /** J/m */
+  energy_per_metre: Maybe;
+  cost_of_transport: Maybe;
+}
+
 export interface RobotState {
   stamp_ns: number;
   position_in_world: Maybe[];
