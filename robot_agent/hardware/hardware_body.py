@@ -19,7 +19,7 @@ from robot_agent.hardware.servos import registers as r
 from robot_agent.hardware.servos.exchange import BusExchange, CyclicExchange
 from robot_agent.hardware.servos.health_block import WRITTEN_TYPE
 from robot_agent.hardware.servos.port import LineClock, ServoPort
-from robot_agent.hardware.servos.preparation import OPERATING_MODES, Place, Preparation
+from robot_agent.hardware.servos.preparation import Preparation
 from robot_agent.hardware.soft_start import SoftStart
 from robot_agent.hardware.sources import InertialSource, PowerReading, PowerSource
 from robot_agent.hardware.wiring import Wiring
@@ -84,7 +84,7 @@ class HardwareBody:
         """Make every servo ready. Raises ResourceError that names the first which is not what it has to be."""
         for bus in self._buses:
             for joint in bus.joints:
-                Preparation(bus.port, self._place(int(joint))).run()
+                Preparation(bus.port, self._wiring.place(int(joint))).run()
         self.exchange.read()
         self._torque_on = bool((self.exchange.block["torque_on"][self.exchange.answered] == 1).all())
         self._judge(self._clock.now_ns())
@@ -154,7 +154,7 @@ class HardwareBody:
         for bus in self._buses:
             for joint in bus.joints:
                 if self.watch.state[joint] in (JointState.RESET, JointState.SHUT_DOWN):
-                    preparation = Preparation(bus.port, self._place(int(joint)))
+                    preparation = Preparation(bus.port, self._wiring.place(int(joint)))
                     if self.watch.state[joint] == JointState.SHUT_DOWN:
                         preparation.reboot(self._clock)
                     preparation.run()
@@ -230,15 +230,6 @@ class HardwareBody:
         gone = (self.watch.misses >= self._settings.lost_after) & ~np.bool_(everybody)
         for bus in self._buses:
             bus.ask_only(~gone[bus.joints])
-
-    def _place(self, joint: int) -> Place:
-        return Place(
-            joint=self.robot.joint_names[joint],
-            id=self._wiring.ids[joint],
-            model=self._wiring.models[joint],
-            stops=self._wiring.stops(joint),
-            operating_mode=OPERATING_MODES[self._settings.operating_mode],
-        )
 
     def _stall_torque(self) -> NDArray[np.float64]:
         stall = [self.robot.servos[joint.servo].stall_torque for joint in self.robot.joints]

@@ -16,6 +16,7 @@ from robot_agent.hardware.serial_line import ByteLine
 from robot_agent.hardware.sources import PowerReading
 
 BAUD = 115_200
+RATE = 90.0  # lines a second
 _LINE = re.compile(
     rb"\$(PWR,(\d{5}),(\d{10}),(\d{5}),([+-]\d{6}),([+-]\d{8}),([0-9A-F]{2}))\*([0-9A-F]{4})\r\n", re.ASCII
 )
@@ -88,6 +89,11 @@ class PowerMonitor:
         self._beat_ns = 0
         self._last_ms = 0
         self._laps = 0
+
+    @property
+    def lost(self) -> int:
+        """Lines that were sent and not understood, as far as their numbers tell."""
+        return self._parser.lost
 
     def take(self, now_ns: int) -> PowerReading | None:
         if now_ns >= self._beat_ns:

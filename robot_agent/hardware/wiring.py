@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
+from robot_agent.hardware.servos.preparation import OPERATING_MODES, Place
 from robot_agent.hardware.servos.registers import CENTRE, CURRENT_UNIT, MODELS, RAD_PER_COUNT, VELOCITY_UNIT, Model
 from weaver_shared.config.hardware import HardwareConfig
 from weaver_shared.errors import ConfigurationError
@@ -113,6 +114,16 @@ class Wiring:
         """Least and greatest count of a joint's range."""
         ends = self.counts(np.array([self.lower[joint], self.upper[joint]]), np.array([joint, joint]))
         return int(ends.min()), int(ends.max())
+
+    def place(self, joint: int) -> Place:
+        """What the servo of a joint has to be."""
+        return Place(
+            joint=self.robot.joint_names[joint],
+            id=self.ids[joint],
+            model=self.models[joint],
+            stops=self.stops(joint),
+            operating_mode=OPERATING_MODES[self.config.servos.operating_mode],
+        )
 
 
 def _model(kind: str) -> Model:

@@ -30,7 +30,12 @@ class TwinServos:
     """Emulated buses by name. `turning` makes what the servos, in joint order, turn."""
 
     def __init__(
-        self, wiring: Wiring, turning: Callable[[Sequence[EmulatedServo]], TurnedJoints], *, seed: int = 0
+        self,
+        wiring: Wiring,
+        turning: Callable[[Sequence[EmulatedServo]], TurnedJoints],
+        *,
+        seed: int = 0,
+        adapter_latency: float = 1e-3,
     ) -> None:
         self.wiring = wiring
         self.servos = [EmulatedServo(servo, model) for servo, model in zip(wiring.ids, wiring.models, strict=True)]
@@ -39,6 +44,7 @@ class TwinServos:
             bus.name: EmulatedBus(
                 [self.servos[joint] for joint in wiring.joints_of(bus.name)],
                 baud=bus.baud,
+                adapter_latency=adapter_latency,
                 seed=seed + number,
                 advance=self.joints.advance,
             )

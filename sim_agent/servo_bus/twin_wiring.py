@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 from robot_agent.hardware.servos.registers import CENTRE
@@ -26,3 +27,15 @@ def twin_wiring(
         joints=tuple(joints),
         servos=settings or ServoSettings(),
     )
+
+
+def wiring_file(config: HardwareConfig) -> str:
+    """A wiring as the text of its file."""
+    values = config.model_dump(mode="json", exclude_none=True)
+    parts = [f"robot = {json.dumps(values.pop('robot'))}"]
+    for key, value in values.items():
+        for table in value if isinstance(value, list) else [value]:
+            head = f"[[{key}]]" if isinstance(value, list) else f"[{key}]"
+            # Strings, numbers and booleans are written in TOML as in JSON.
+            parts.append("\n".join([head, *(f"{name} = {json.dumps(entry)}" for name, entry in table.items())]))
+    return "\n\n".join(parts) + "\n"

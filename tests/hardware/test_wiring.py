@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robot_agent.hardware.wiring import Wiring, load_wiring
-from sim_agent.servo_bus.twin_wiring import twin_wiring
+from sim_agent.servo_bus.twin_wiring import twin_wiring, wiring_file
+from weaver_shared.config.hardware import ImuLine, PowerLine
 from weaver_shared.errors import ConfigurationError
 from weaver_shared.robots import RobotDescription, load_robot
 
@@ -71,6 +72,15 @@ def test_a_wrong_wiring_file_is_answered_with_what_is_wrong(
 ) -> None:
     with pytest.raises(ConfigurationError, match=says):
         load_wiring(written(tmp_path, **changes))
+
+
+def test_a_wiring_comes_back_from_its_file(tmp_path: Path) -> None:
+    config = WIRING.config.model_copy(
+        update={"imu": ImuLine(kind="gx3", port="/dev/imu"), "power": PowerLine(port="/dev/power")}
+    )
+    path = tmp_path / "robot.toml"
+    path.write_text(wiring_file(config))
+    assert load_wiring(path) == config
 
 
 def test_a_robot_whose_joints_are_not_all_wired_is_refused() -> None:

@@ -84,13 +84,18 @@ class BusExchange:
 
 
 class CyclicExchange:
-    """All buses of a robot. `block` holds the last believed answers, `answered` who gave one in the last cycle."""
+    """All buses of a robot, or some of them where its count of `joints` is given.
 
-    def __init__(self, buses: Sequence[BusExchange], clock: LineClock, *, answer_margin: float) -> None:
+    `block` holds the last believed answers, `answered` who gave one in the last cycle.
+    """
+
+    def __init__(
+        self, buses: Sequence[BusExchange], clock: LineClock, *, answer_margin: float, joints: int | None = None
+    ) -> None:
         self.buses = buses
         self._clock = clock
         self._margin = answer_margin
-        count = sum(len(bus.joints) for bus in buses)
+        count = sum(len(bus.joints) for bus in buses) if joints is None else joints
         self.block = np.zeros(count, dtype=READ_TYPE)
         self.answered = np.zeros(count, dtype=np.bool_)
         self.forgetful = np.zeros(count, dtype=np.bool_)

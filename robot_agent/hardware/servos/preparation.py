@@ -56,7 +56,7 @@ class Preparation:
         self._place = place
 
     def run(self) -> None:
-        found = self._snapshot()
+        found = self.look()
         self._check(found)
         self._settle_eeprom(found)
         if found(r.BUS_WATCHDOG):
@@ -78,8 +78,8 @@ class Preparation:
         if error & ~ALERT:
             raise self._trouble(f"refuses {value} at address {register.address} (error {error & ~ALERT})")
 
-    def _snapshot(self) -> Callable[[Register], int]:
-        """Value by register, all of them read at once."""
+    def look(self) -> Callable[[Register], int]:
+        """Value by register, all of them read at once; nothing is written."""
         servo, port = self._place.id, self._port
         raw, _ = self._tried(lambda: _sdk.readTxRx(port, servo, 0, SNAPSHOT))
         table = bytes(raw)

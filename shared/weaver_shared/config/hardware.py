@@ -44,18 +44,34 @@ class ServoSettings(Strict):
     start_speed: Positive = 1.0  # at which joints go where they are wanted after torque came on
 
 
+class ImuLine(Strict):
+    """The serial line of a MicroStrain IMU: 3DM-GX3 by its single-byte protocol, GX4 and GX5 by MIP."""
+
+    kind: Literal["gx3", "gx5"]
+    port: str
+    baud: Annotated[int, Field(gt=0)] = 115_200  # bit/s
+
+
+class PowerLine(Strict):
+    """The serial line of the power monitor (firmware/power_monitor)."""
+
+    port: str
+
+
 class HardwareConfig(Strict):
     robot: str
     buses: Annotated[tuple[ServoBus, ...], Field(min_length=1)]
     joints: tuple[WiredJoint, ...]
     servos: ServoSettings = ServoSettings()
+    imu: ImuLine | None = None
+    power: PowerLine | None = None
 
     @model_validator(mode="after")
     def _consistent(self) -> HardwareConfig:
         names = [bus.name for bus in self.buses]
         for what, values in (
             ("bus", names),
-            ("port", [bus.port for bus in self.buses]),
+            ("port", [line.port for line in (*self.buses, self.imu, self.power) if line is not None]),
             ("joint", [wired.joint for wired in self.joints]),
             ("servo", [f"{wired.id} on bus {wired.bus}" for wired in self.joints]),
         ):
