@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 
 import numpy as np
@@ -18,11 +18,13 @@ from robot_agent.adaptation import ParameterOverrides
 from robot_agent.authority import Authority
 from robot_agent.cruise import Cruise
 from robot_agent.foothold_desk import FootholdDesk
+from robot_agent.ground_memory import GroundMemory
 from robot_agent.leg_desk import LegDesk
 from robot_agent.locomotion.leg_reach import LegReach
 from robot_agent.mission import Mission
 from robot_agent.motion_desk import MotionDesk
 from robot_agent.orders import Orders
+from robot_agent.way_survey import NOTHING_ASKED, Survey, WaySurvey
 from weaver_shared.config.command import CommandLimits
 from weaver_shared.errors import InputError, WeaverError
 from weaver_shared.messages import (
@@ -72,6 +74,9 @@ class CommandDesk:
         self._lock = threading.RLock()
         self._authority = Authority()
         self._mission = Mission(self._limits)
+        self.ground = GroundMemory()  # to be filled with the map's tiles
+        self._surveyor = WaySurvey(robot, self.ground)
+        self._survey = NOTHING_ASKED  # of the command being answered
         self._motion = MotionDesk(robot)
         self._cruise = Cruise(self._limits)
         self._legs = LegDesk(robot, robot.locomotion)
@@ -124,7 +129,9 @@ class CommandDesk:
 
     def answer(self, command: Command) -> Answer:
         """Carry out or refuse one command; never raises."""
+        survey = self._look_at_the_way(command)
         with self._lock:
+            self._survey = survey
             now = self._now_ns()
             if command.command is CommandName.STOP:
                 reply = self._stop(command)
@@ -366,19 +373,21 @@ class CommandDesk:
         return self._accept()
 
     def _set_mission(self, command: Command) -> Answer:
-        refusal = self._mission.replace(command.waypoints, self._situation.robot_xy, command.name)
+        refusal = self._survey.refusal or self._mission.replace(
+            command.waypoints, self._situation.robot_xy, command.name
+        )
         return self._refuse(refusal) if refusal else self._accept(float(len(command.waypoints)))
 
     def _start_mission(self, _: Command) -> Answer:
-        refusal = self._walk_refusal() or self._mission.start(self._situation.robot_xy)
+        refusal = self._walk_refusal() or self._survey.refusal or self._mission.start(self._situation.robot_xy)
         if refusal:
             return self._refuse(refusal)
         self._cruise.stop()
-        return self._accept()
+        return replace(self._accept(), reason=self._survey.remark)
 
     def _skip_waypoint(self, _: Command) -> Answer:
         """The applied value is the number of the waypoint gone to next, 0 when there was no other."""
-        refusal = self._mission.skip()
+        refusal = self._survey.refusal or self._mission.skip()
         if refusal:
             return self._refuse(refusal)
         if self._mission.phase == "done":
@@ -393,6 +402,19 @@ class CommandDesk:
             return self._refuse(refusal)
         self._cruise.stop()
         return self._accept(float(len(self._mission.waypoints)))
+
+    def _look_at_the_way(self, command: Command) -> Survey:
+        """Before the desk is locked: the walk loop does not wait for a long way to be looked at."""
+        with self._lock:
+            way, begin = self._mission.straight_way(command), self._situation.robot_xy
+            total = len(
+                self._mission.waypoints if command.command is not CommandName.SET_MISSION else command.waypoints
+            )
+            known = len(way) <= self._limits.waypoint_count and self._situation.mode in ("STAND", "WALK", "HOLD")
+        places = all(isfinite(place.x) and isfinite(place.y) for place in way)
+        if not (way and known and places):
+            return NOTHING_ASKED
+        return self._surveyor.survey(begin, way, total - len(way) + 1)
 
     def _walk_refusal(self) -> str:
         """Why no mission can be walked now, whatever its waypoints."""
@@ -493,6 +515,6 @@ class CommandDesk:
     def _log(self, command: Command, reply: Answer) -> None:
         what = command.command.value.replace("_", " ")
         detail = " ".join(part for part in (command.name, f"{command.value:g}" if command.value else "") if part)
-        outcome = "" if reply.accepted else f": refused, {reply.reason}"
+        outcome = f": {'' if reply.accepted else 'refused, '}{reply.reason}" if reply.reason else ""
         severity = Severity.INFO if reply.accepted else Severity.WARNING
         self.note(severity, " ".join(filter(None, (what, detail))) + outcome, source=command.operator)

@@ -83,6 +83,7 @@ class WalkLoop:
         bus.subscribe(robot_id, topics.ODOMETRY, lambda _id, _key, message: self._odometry.put(message))
         bus.subscribe(robot_id, topics.DESIRED_GAIT, lambda _id, _key, message: self._report.put(message))
         bus.subscribe(robot_id, topics.ROUTE, lambda _id, _key, message: self._route.put(message))
+        bus.subscribe(robot_id, topics.MAP_TILE, lambda _id, _key, tile: self.desk.ground.put(tile))
         bus.subscribe(robot_id, topics.TELEOP, self._teleoperate)
         bus.serve(robot_id, self.desk.answer)
         bus.announce(robot_id, "walk")

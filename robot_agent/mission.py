@@ -8,7 +8,7 @@ from math import hypot, isfinite, nan
 import numpy as np
 
 from weaver_shared.config.command import CommandLimits
-from weaver_shared.messages import MissionState, Waypoint
+from weaver_shared.messages import Command, CommandName, MissionState, Waypoint
 
 WAYS = ("", "auto")
 
@@ -48,6 +48,19 @@ class Mission:
     def ahead(self) -> tuple[Waypoint, ...]:
         """The waypoints still to come."""
         return self.waypoints[self._next :]
+
+    def straight_way(self, command: Command) -> tuple[Waypoint, ...]:
+        """The waypoints that this command would have the robot walk to in straight lines, if any; not those of the way
+        back, which it has walked already."""
+        if command.command is CommandName.START_MISSION and self.phase in ("ready", "paused"):
+            way = self.ahead
+        elif command.command is CommandName.SKIP_WAYPOINT and self.phase in ("active", "paused"):
+            way = self.waypoints[self._next + 1 :]
+        elif command.command is CommandName.SET_MISSION and self.phase == "active" and not command.name:
+            way = command.waypoints[self._next :]
+        else:
+            return ()
+        return () if self.find_way or self._returning else way
 
     def replace(self, waypoints: Sequence[Waypoint], robot_xy: tuple[float, float], how: str = "") -> str:
         """Take new waypoints; returns why they are refused, or an empty string.

@@ -83,7 +83,7 @@ class Telemetry:
         self._rate = rate
         self._count = 0
         self._ledger = PowerLedger(robot)
-        self._pace = WalkingPace()
+        self._pace = WalkingPace(robot.locomotion.largest_speed)
         self._mode = ""
         self._goal: NavigationGoal | None = None
 

@@ -14,6 +14,9 @@ MARK = 0.1
 WINDOW = 3.0
 """m of way, about as much as is known of the ground: what was walked before says little of what is to come."""
 
+JUMP = 1.3
+"""Times the robot's largest speed, from which on not the robot has moved but the knowledge of where it is."""
+
 LEAST = 0.5
 """m before anything is said."""
 
@@ -31,7 +34,9 @@ def expected_speed(robot: RobotDescription, gait: str, stride_frequency: float) 
 class WalkingPace:
     """Means over the last metres of missions; turning and slowing down count, pauses do not."""
 
-    def __init__(self) -> None:
+    def __init__(self, fastest: float) -> None:
+        """`fastest` is the largest speed (m/s) that the robot is capable of."""
+        self._fastest = JUMP * fastest
         self._marks: deque[tuple[float, float, float]] = deque()  # m, s, J from the mark before
         self._from: tuple[float, float] | None = None
         self._last_ns = 0
@@ -52,8 +57,9 @@ class WalkingPace:
         self._energy += power * dt
         way = hypot(xy[0] - self._from[0], xy[1] - self._from[1])
         if way >= MARK:
-            self._marks.append((way, self._seconds, self._energy))
-            self._way += way
+            if way <= self._fastest * self._seconds:
+                self._marks.append((way, self._seconds, self._energy))
+                self._way += way
             self._from, self._seconds, self._energy = xy, 0.0, 0.0
             while self._way - self._marks[0][0] >= WINDOW:
                 self._way -= self._marks.popleft()[0]

@@ -8,7 +8,7 @@ import pytest
 from robot_agent.adaptation import ParameterOverrides
 from robot_agent.commands import CommandDesk, Situation
 from weaver_shared.clock import SimulatedClock
-from weaver_shared.messages import Answer, Command, CommandName, TeleopFrame, Waypoint
+from weaver_shared.messages import Answer, Command, CommandName, MapTile, TeleopFrame, Waypoint
 from weaver_shared.robots import load_robot
 
 
@@ -181,6 +181,45 @@ def test_a_waypoint_is_skipped_and_the_way_back_is_walked(desk: CommandDesk, ada
     assert desk.orders().waypoints == (second, Waypoint(x=1.0, y=0.0))
     observe(desk, "SIT", robot_xy=(3.0, 0.0))
     assert "must stand" in ada.says(CommandName.RETURN_TO_START).reason
+
+
+def wall_at(desk: CommandDesk, x: float) -> None:
+    """Level ground with a wall of 0.5 m across it, in the map of the desk."""
+    size, cell = 32, 0.02
+    none = np.full((size, size), 255, dtype=np.uint8)
+    for i in range(8):
+        for j in range(-2, 2):
+            along = (i * size + np.arange(size) + 0.5) * cell
+            height = np.where((along > x) & (along < x + 0.2), 500, 0).astype(np.int16)
+            elevation, sigma = np.repeat(height[:, None], size, axis=1), np.full((size, size), 3, dtype=np.uint8)
+            desk.ground.put(
+                MapTile(stamp_ns=0, i=i, j=j, size=size, cell=cell, elevation_mm=elevation, sigma_mm=sigma,
+                        roughness=none, step_height=none, age_s=none)
+            )  # fmt: skip
+
+
+def test_a_way_over_a_wall_is_refused_whichever_command_would_lead_there(desk: CommandDesk, ada: Operator) -> None:
+    before, aside, behind = Waypoint(x=2.0, y=0.0), Waypoint(x=2.0, y=0.1), Waypoint(x=4.0, y=0.0)
+    wall_at(desk, 3.0)
+    ada.says(CommandName.SET_MISSION, waypoints=(before, behind))
+    answer = ada.says(CommandName.START_MISSION)
+    assert not answer.accepted
+    assert "the way to waypoint 2 leads over a step of 0.50 m" in answer.reason
+    assert desk.mission(0).phase == "ready"
+    ada.says(CommandName.SET_MISSION, waypoints=(before, behind), name="auto")
+    assert ada.says(CommandName.START_MISSION).accepted  # it finds its own way
+    ada.says(CommandName.SET_MISSION, waypoints=(before, aside))
+    assert ada.says(CommandName.START_MISSION) == Answer(accepted=True, reason="", lease_epoch=1)
+    assert "waypoint 3" in ada.says(CommandName.SET_MISSION, waypoints=(before, aside, behind)).reason
+    assert desk.orders().waypoints == (before, aside)
+
+
+def test_unknown_ground_on_the_way_is_said(desk: CommandDesk, ada: Operator) -> None:
+    ada.says(CommandName.SET_MISSION, waypoints=(Waypoint(x=4.0, y=0.0),))
+    answer = ada.says(CommandName.START_MISSION)
+    assert answer.accepted
+    assert "the map does not know" in answer.reason
+    assert "the map does not know" in desk.take_events()[-1].text
 
 
 def progress(desk: CommandDesk, serial: int, index: int) -> None:

@@ -13,7 +13,7 @@ class Walk:
     """A robot that walks along x, ticked at 100 Hz."""
 
     def __init__(self) -> None:
-        self.pace = WalkingPace()
+        self.pace = WalkingPace(fastest=0.35)
         self.stamp_ns, self.x = 0, 0.0
 
     def goes(self, seconds: float, speed: float, power: float, *, walking: bool = True) -> None:
@@ -65,6 +65,13 @@ def test_a_lost_place_is_not_walked_from(walk: Walk) -> None:
     walk.x += 5.0
     walk.goes(0.1, 0.1, 100.0)
     assert walk.pace.measured_over == before
+
+
+def test_a_correction_of_the_place_is_not_walked(walk: Walk) -> None:
+    walk.goes(10.0, 0.1, 100.0)
+    walk.x += 0.4
+    walk.goes(10.0, 0.1, 100.0)
+    assert walk.pace.speed == pytest.approx(0.1, rel=0.05)
 
 
 def test_the_expected_speed_follows_the_stride_frequency_up_to_that_of_missions() -> None:

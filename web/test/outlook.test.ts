@@ -33,7 +33,7 @@ describe("what a mission will take", () => {
 
   it("says what it rests on", () => {
     expect(basis(measured)).toContain("0.10 m/s, 900 J/m (cost of transport 8.9), measured over the last 2.5 m");
-    expect(basis(fresh)).toContain("At least, at 0.10 m/s");
+    expect(basis(fresh)).toContain("The least time, at 0.10 m/s");
     expect(basis(undefined)).toBe("");
   });
 

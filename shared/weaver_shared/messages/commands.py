@@ -61,7 +61,7 @@ class Command:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer:
-    """`accepted` with what was really applied, or refused with a reason a person can read."""
+    """`accepted` with what was really applied and perhaps a remark, or refused with a reason; both for a person."""
 
     accepted: bool
     reason: str

@@ -1,5 +1,6 @@
 /** A coordinate in metres, taken over with Enter or on leaving the field; nonsense is put back. */
 import { useEffect, useState } from "react";
+import { fixed } from "../components/format";
 
 interface CoordinateInputProps {
   label: "x" | "y";
@@ -10,12 +11,12 @@ interface CoordinateInputProps {
 }
 
 export function CoordinateInput({ label, name, value, onCommit }: CoordinateInputProps) {
-  const [text, setText] = useState(shown(value));
-  useEffect(() => setText(shown(value)), [value]);
+  const [text, setText] = useState(fixed(value, 2));
+  useEffect(() => setText(fixed(value, 2)), [value]);
   const commit = () => {
     const entered = Number(text.replace(",", "."));
-    if (text.trim() === "" || !Number.isFinite(entered)) setText(shown(value));
-    else if (entered !== value) onCommit(entered);
+    if (text.trim() === "" || !Number.isFinite(entered) || entered === value) setText(fixed(value, 2));
+    else onCommit(entered);
   };
   return (
     <label className="coordinate">
@@ -30,8 +31,4 @@ export function CoordinateInput({ label, name, value, onCommit }: CoordinateInpu
       />
     </label>
   );
-}
-
-function shown(value: number): string {
-  return value.toFixed(2);
 }

@@ -28,7 +28,7 @@ export function basis(outlook: MissionOutlook | undefined): string {
   if (outlook === undefined || typeof outlook.speed !== "number") return "";
   const speed = `${outlook.speed.toFixed(2)} m/s`;
   if (outlook.speed_basis === "gait") {
-    return `At least, at ${speed}: the most that the present stride frequency allows. Energy is known after 0.5 m.`;
+    return `The least time, at ${speed}: the most that the present stride frequency allows. Energy is known after 0.5 m.`;
   }
   const { energy_per_metre: energy, cost_of_transport: cost } = outlook;
   const dear = typeof energy === "number" ? `, ${energy.toFixed(0)} J/m` : "";
