@@ -9,9 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import Protocol
 
 import cv2
 
+from robot_agent.body import Body
 from robot_agent.felt_queue import Felt
 from robot_agent.loops import CONTROL_RATE, VisionLoop, WalkLoop
 from robot_agent.mapping import TerrainMap
@@ -22,7 +24,7 @@ from sim_agent.worlds import World
 from weaver_shared import topics
 from weaver_shared.bus import MemoryBus
 from weaver_shared.clock import SimulatedClock
-from weaver_shared.messages import CommandName, Proprioception, StereoFrame, TruthState
+from weaver_shared.messages import CommandName, Proprioception, SceneState, StereoFrame, TruthState
 from weaver_shared.operator import Operator
 from weaver_shared.robots import RobotDescription
 
@@ -40,19 +42,38 @@ class Moment:
     truth: TruthState | None
 
 
+class SteppedBody(Body, Protocol):
+    """A body in a world that can be looked at, on a clock of its own that moves with its ticks."""
+
+    def truth(self) -> TruthState: ...
+
+    def camera_due(self) -> bool:
+        """Whether the cameras expose at this tick."""
+        ...
+
+    def scene_state(self) -> SceneState: ...
+
+
 class LockStep:
     """Steps body, walk loop, renderer and vision loop in a fixed order."""
 
     def __init__(
-        self, robot: RobotDescription, world: World, seed: int, *, robot_id: str = "sim-1", tell_truth: bool = True
+        self,
+        robot: RobotDescription,
+        world: World,
+        seed: int,
+        *,
+        robot_id: str = "sim-1",
+        tell_truth: bool = True,
+        body: Callable[[RobotDescription, World, int], SteppedBody] = SimulatedBody,
     ) -> None:
         cv2.setNumThreads(1)
-        self.clock = SimulatedClock()
         self.bus = MemoryBus()
         self.robot_id = robot_id
         self.robot = robot
         self._tell_truth = tell_truth
-        self._body = SimulatedBody(robot, world, seed)
+        self._body = body(robot, world, seed)
+        self.clock = SimulatedClock(self._body.scene_state().stamp_ns)
         self._renderer = StereoRenderer(robot, world, seed)
         self.walk = WalkLoop(
             robot_id=robot_id, body=self._body, bus=self.bus, world=world.name, wall_clock_ns=self.clock.now_ns

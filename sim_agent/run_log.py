@@ -27,12 +27,17 @@ class RunLog:
     dt: float
     _digest: Any = field(default_factory=hashlib.sha256)
     _rows: list[tuple[float, ...]] = field(default_factory=list)
+    _ordered: Array | None = None
+    _tracking: list[float] = field(default_factory=list)
     _estimated: list[tuple[float, ...]] = field(default_factory=list)
 
     def add(self, moment: Moment) -> None:
         sensed, walk = moment.sensed, moment.walk
         for array in (sensed.joint_position, sensed.joint_torque, walk.targets.position, walk.velocity_command):
             self._digest.update(np.ascontiguousarray(array).tobytes())
+        if self._ordered is not None:
+            self._tracking.append(float(np.mean((sensed.joint_position - self._ordered) ** 2)))
+        self._ordered = walk.targets.position.copy() if walk.targets.torque_on else None
         if moment.vision is not None:
             odometry = moment.vision.odometry
             self._digest.update(odometry.position_in_world.tobytes())
@@ -55,7 +60,7 @@ class RunLog:
         return str(self._digest.hexdigest())
 
     def figures(self) -> dict[str, Any]:
-        """Distance (m), duration (s), cost of transport, figures per segment and of the odometry."""
+        """Distance (m), duration (s), cost of transport, joints against orders, figures per segment and of odometry."""
         rows = np.array(self._rows)
         if rows.size == 0:
             return {}
@@ -64,6 +69,7 @@ class RunLog:
             "distance": path_length(rows[:, 1:3]),
             "duration": float(rows[-1, 0] - rows[0, 0]),
             "cost_of_transport": {"total": energy.total, "motors": energy.motors},
+            "joint_tracking_rms_deg": float(np.degrees(np.sqrt(np.mean(self._tracking or [np.nan])))),
             "segments": self._segments(rows),
             "odometry": self._odometry(rows),
         }

@@ -7,6 +7,7 @@ import json
 import math
 import sys
 import time
+from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -17,14 +18,18 @@ from robot_agent.adaptation import safe_gait
 from robot_agent.loops import CONTROL_RATE
 from robot_agent.mapping.files import MapSnapshot, load_map, save_map
 from robot_agent.recording import Recorder, RecordingWriter
+from sim_agent.body import SimulatedBody
 from sim_agent.json_figures import without_nan
-from sim_agent.lock_step import LockStep
+from sim_agent.lock_step import LockStep, SteppedBody
 from sim_agent.mission import begin_mission
 from sim_agent.run_log import RunLog
-from sim_agent.worlds import make_world
+from sim_agent.servo_bus.twin_body import TwinBody
+from sim_agent.worlds import World, make_world
 from weaver_shared.errors import InputError
 from weaver_shared.messages import Waypoint
-from weaver_shared.robots import load_robot
+from weaver_shared.robots import RobotDescription, load_robot
+
+BODIES: dict[str, Callable[[RobotDescription, World, int], SteppedBody]] = {"sim": SimulatedBody, "twin": TwinBody}
 
 
 def main(arguments: list[str]) -> int:
@@ -43,7 +48,7 @@ def walk(options: argparse.Namespace, *, tell_truth: bool = True) -> dict[str, A
     known = load_map(Path(options.known_map)) if options.known_map else None
     robot = load_robot(options.robot_description)
     world = make_world(options.world, options.seed)
-    run = LockStep(robot, world, options.seed, tell_truth=tell_truth)
+    run = LockStep(robot, world, options.seed, tell_truth=tell_truth, body=BODIES[options.robot])
     recording = _Recording(run, Path(options.record)) if options.record else None
     log = RunLog(world=world, mass=robot.mass, dt=1.0 / CONTROL_RATE)
     started = time.monotonic()
@@ -134,7 +139,7 @@ def _print(figures: dict[str, Any]) -> None:
 
 def parser() -> argparse.ArgumentParser:
     result = argparse.ArgumentParser(prog="weaver walk", description=__doc__)
-    result.add_argument("--robot", choices=("sim",), default="sim", help="which body walks")
+    result.add_argument("--robot", choices=tuple(BODIES), default="sim", help="twin: on emulated servos")
     result.add_argument("--robot-description", default="weaver", help="a shipped robot or a TOML file")
     result.add_argument("--world", default="testbed", help="flat, testbed, outdoor, stairs, wall or pen")
     result.add_argument("--goal", default="5,0", help="x,y in m from the start")

@@ -41,11 +41,12 @@ class BodyJoints:
             self._now_ns += TICK_NS
             for servo in self._servos:
                 servo.elapse(self._now_ns)
-            stamp_ns = self.body.wait_next()
+            # What servos were told since the last tick is on their shafts with this one, as with the simulated body.
+            self.body.write(self._orders(self._now_ns))
+            self.body.wait_next()
             sensed = self.body.read()
             self._feel(sensed)
             self._heard(self._now_ns, sensed)
-            self.body.write(self._orders(stamp_ns))
 
     def _feel(self, sensed: Proprioception) -> None:
         shaft = self._wiring.shaft(sensed.joint_position)
