@@ -17,7 +17,12 @@ from weaver_shared.messages import Answer, Command, CommandName, Severity, Teleo
 ANSWER_TIMEOUT = 1.0
 """Seconds to wait for a robot's answer."""
 
-_WITH_VALUE = (CommandName.SET_OVERRIDE,)
+_WITH_VALUE = (
+    CommandName.SET_OVERRIDE,
+    CommandName.LOOK_CLOSELY,
+    CommandName.SKIP_WAYPOINT,
+    CommandName.RETURN_TO_START,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -196,6 +196,9 @@ def test_a_person_walks_the_robot_to_two_clicked_waypoints_and_stops_it(product:
 
 def _look_closely(anna: Operator, robot: Any) -> None:
     anna.press("Look closely")
+    expect(anna.page.get_by_text(re.compile("Look closely(: the look is still| measured [0-9]+ cells)"))).to_be_visible(
+        timeout=PATIENT
+    )
     robot.wait_until(
         lambda _: any("close look measured" in event.text for event in robot.events), 15.0, "no close look is told of"
     )
