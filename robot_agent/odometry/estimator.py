@@ -35,6 +35,12 @@ DRIFT_SPEED, DRIFT_ACCELERATION = 0.02, 0.05
 SEEN_STILL = 0.7
 """Share of the flow allowed at rest below which pictures alone say that the body stands."""
 
+BLOW = 1000.0
+"""Times the sensor's noise, where a blow was beyond its range: some 0.2 m/s that nobody has measured."""
+
+UNFOLLOWED = 3
+"""Pictures in a row, hardly a feature of which is followed to the next, after which the pose rests on inertia alone."""
+
 STEEP = 0.9
 """A body whose x axis points this far up or down has no heading to keep."""
 
@@ -101,7 +107,10 @@ class StereoInertialOdometry:
         self._seen_motion = SeenMotion(self._config.rest.seen_duration, calibration.left.fx)
         self._pending: list[Array] = []  # inertia since the window's newest frame
         self._pending_trusted = True
+        self._pending_beyond_range = False
         self._pending_way: Way | None = None  # of the feet, likewise
+        self._last_seen = np.zeros(0, dtype=np.int64)  # identities in the last picture
+        self._unfollowed = 0  # pictures in a row
         self._rate = np.zeros(3)
         self._world_from_imu = initial @ self._body_from_imu
         self._velocity = np.zeros(3)
@@ -253,10 +262,14 @@ class StereoInertialOdometry:
         before = self._world_from_imu
         self._pending.append(inertia.samples)
         self._pending_trusted &= inertia.trusted
+        self._pending_beyond_range |= inertia.beyond_range
         self._predict()
         left_from_imu = self._left_from_imu @ self._window.mounting().inverse()
         left_from_previous = left_from_imu @ self._world_from_imu.inverse() @ before @ left_from_imu.inverse()
         tracks = self._front_end.step(frame, left_from_previous, self._legs)
+        followed = int(np.isin(tracks.identity, self._last_seen).sum())
+        self._unfollowed = 0 if followed >= self._config.failure.least_features else self._unfollowed + 1
+        self._last_seen = tracks.identity
         resting = self._is_resting(tracks, inertia)
         blind = tracks.number < self._config.failure.least_features
         if self._lost and (self._stepping or not blind):
@@ -276,6 +289,8 @@ class StereoInertialOdometry:
         assert self._stamp is not None
         window, failure = self._window, self._config.failure
         noise_scale = 1.0 if self._pending_trusted else 30.0
+        if self._pending_beyond_range:
+            noise_scale = BLOW
         window.add_frame(
             self._stamp,
             np.concatenate(self._pending),
@@ -358,6 +373,7 @@ class StereoInertialOdometry:
     def _clear_pending(self) -> None:
         self._pending = []
         self._pending_trusted = True
+        self._pending_beyond_range = False
         self._pending_way = None
 
     # ---- standstill ------------------------------------------------------------------------------------------------
@@ -398,6 +414,8 @@ class StereoInertialOdometry:
         matched = float(((tracks.seen & RIGHT) > 0).mean()) if tracks.number else 1.0
         if not tracks.problem and self._stereo and matched < self._config.failure.least_matched:
             reasons.append(f"the eyes agree on {100.0 * matched:.0f} % of the features: is their calibration right?")
+        if self._unfollowed >= UNFOLLOWED and tracks.number >= self._config.failure.least_features:
+            reasons.append("features are not followed from picture to picture; on inertia alone")
         if tracks.number < self._config.failure.least_features:
             reasons.append("on inertia and feet" if self._on_feet else "standing without sight")
         elif tracks.number < self._config.failure.good_features:

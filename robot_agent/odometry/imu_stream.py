@@ -22,6 +22,7 @@ class Inertia:
     problem: str  # what is wrong with the samples; empty if nothing
     trusted: bool  # False: so much is missing that the samples are a guess
     gap: float = 0.0  # s, the longest stretch without a sample
+    beyond_range: bool = False  # a blow was harder than the sensor can measure
 
 
 def usable(batch: ImuBatch, config: FailureConfig) -> NDArray[np.bool_]:
@@ -42,11 +43,13 @@ class ImuStream:
         self._last = np.array([0.0, 0.0, 0.0, np.nan, np.nan, np.nan])
         self._cursor: int | None = None
         self._bad = 0
+        self._beyond_range = False
 
     def add(self, batch: ImuBatch) -> None:
         """Take samples in; the unusable and the out of order are left out and counted."""
         rows = np.column_stack([batch.angular_velocity_in_imu, batch.specific_force_in_imu])
         good = usable(batch, self._config)
+        self._beyond_range |= bool(np.isfinite(rows[~good]).all(axis=1).any())
         newest = self._stamps[-1] if len(self._stamps) else (self._cursor if self._cursor is not None else -(2**62))
         past = np.maximum.accumulate(np.concatenate([[newest], batch.stamp_ns]))[:-1]
         good &= batch.stamp_ns > past
@@ -63,6 +66,7 @@ class ImuStream:
         ends = np.minimum(self._stamps[: first_after + 1], stamp_ns)
         split = first_after < len(self._stamps) and self._stamps[first_after] > stamp_ns
         bad, self._bad = self._bad, 0
+        beyond, self._beyond_range = self._beyond_range, False
         keep_from = first_after if split else first_after + 1
         self._rows, self._stamps = self._rows[keep_from:], self._stamps[keep_from:]
         missing = begin is not None and len(ends) == 0
@@ -87,4 +91,5 @@ class ImuStream:
             problem=problem,
             trusted=gap <= self._config.imu_gap and not missing and bool(known.any()),
             gap=gap,
+            beyond_range=beyond,
         )

@@ -9,8 +9,9 @@ from walking_motion import FRAME_NS, Walk, inertia
 
 from robot_agent.evaluation.textured_ground import TexturedGround
 from robot_agent.odometry import StereoInertialOdometry
+from robot_agent.odometry.front_end import FrontEnd
 from robot_agent.vision.camera import StereoCalibration
-from weaver_shared.config.odometry import FailureConfig, OdometryConfig
+from weaver_shared.config.odometry import FailureConfig, FrontEndConfig, OdometryConfig
 from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.messages import ImuBatch, OdometryEstimate, OdometryQuality, StereoFrame
 from weaver_shared.robots import RobotDescription
@@ -183,6 +184,38 @@ def test_a_saturated_sensor_is_named_and_survived(
     assert "6 inertial samples unusable" in estimates[55].reason
     assert estimates[-1].quality is GOOD
     assert _error(estimates[-1]) < 0.03
+
+
+def test_a_blow_beyond_the_sensors_range_is_named_and_survived(
+    recording: Recording, run: Callable[..., list[OdometryEstimate]]
+) -> None:
+    """A foot strikes: up and down again within two samples, of which the harder is beyond the range and left out."""
+    struck = 60
+    batch = recording[struck][1]
+    force = batch.specific_force_in_imu.copy()
+    force[3, 2] += 140.0
+    force[4:6, 2] -= 70.0
+    blow = [*recording[:struck], (recording[struck][0], replace(batch, specific_force_in_imu=force))]
+    estimates = run([*blow, *recording[struck + 1 :]])
+    assert "unusable" in estimates[struck].reason
+    assert estimates[struck].quality is DEGRADED
+    assert all(e.quality is GOOD for e in estimates[struck + 3 :])
+    assert max(_error(e) for e in estimates[struck:]) < 0.03
+    assert _error(estimates[-1]) < 0.01
+
+
+def test_features_are_found_again_after_a_wrong_prediction(
+    recording: Recording, calibration: StereoCalibration
+) -> None:
+    front_end, before, known = FrontEnd(calibration, FrontEndConfig()), None, np.zeros(0)
+    for k, (frame, _) in enumerate(recording[:50]):
+        left = Walk().body(frame.stamp_ns * 1e-9) @ calibration.left.body_from_camera
+        predicted = Pose.identity() if before is None else left.inverse() @ before
+        wrong = Pose(rotation=predicted.rotation, position=predicted.position - np.array([0.0, 0.06, 0.0]))
+        seen = front_end.step(frame, wrong if k >= 40 else predicted).identity
+        if k >= 40:
+            assert np.isin(seen, known).sum() > 0.6 * len(known)
+        before, known = left, seen
 
 
 @pytest.mark.parametrize("seconds", [100, -2])
