@@ -392,7 +392,8 @@ class StereoInertialOdometry:
         assert self._stamp is not None
         self._flows.append(tracks.flow)
         still = self._seen_still()
-        if self._seen_motion.step(self._stamp, tracks) > self._config.rest.seen_motion:
+        moved = self._seen_motion.step(self._stamp, tracks)
+        if self._stereo and moved > self._config.rest.seen_motion:  # tracks recorded by others may wander at rest
             return False
         if not inertia.trusted or (tracks.flow > self._config.rest.flow and not still):
             return False

@@ -12,7 +12,7 @@ pytestmark = pytest.mark.walk
 
 
 def options(robot: str) -> argparse.Namespace:
-    return parser().parse_args(["--robot", robot, "--world", "flat", "--goal", "0.6,0", "--seed", "1"])
+    return parser().parse_args(["--robot", robot, "--world", "flat", "--goal", "0.35,0", "--seed", "1"])
 
 
 def test_the_twin_walks_where_the_simulated_robot_walks() -> None:
