@@ -50,6 +50,10 @@ from weaver_shared.transforms import Pose
 REPORT_LIFETIME = 1.0
 """Seconds after which an adaptation report no longer describes the ground under the robot."""
 
+FELT_LIFETIME_NS = 500_000_000
+"""As long as that the legs may be silent, and what was felt before still holds: a picture late by a little comes with
+no reading of its own."""
+
 PLAN_EVERY = RouteConfig().every
 
 
@@ -75,6 +79,7 @@ class VisionPipeline:
         self._feet = FirmFeet(robot)
         self._felt_ground = FeltGround(PerceptionConfig().felt, PerceptionConfig().features)
         self._felt = Roughness.unknown()
+        self._felt_ns = 0  # when the legs last told anything
         self._adaptation = AdaptationController(robot.adaptation)
         self._planner = RoutePlanner(robot)
         self._goal: NavigationGoal | None = None
@@ -129,6 +134,10 @@ class VisionPipeline:
 
     def _feel(self, contacts: FootContacts | None, legs: LegBatch, odometry: OdometryEstimate) -> None:
         """Footholds enter the map while it is known where they are; with loads and tilt they speak of the ground."""
+        if contacts is not None:
+            self._felt_ns = odometry.stamp_ns
+        elif odometry.stamp_ns - self._felt_ns < FELT_LIFETIME_NS:
+            return
         footholds = self._feet.step(contacts, odometry.world_from_body)
         placed = odometry.quality in (OdometryQuality.GOOD, OdometryQuality.DEGRADED)
         self._felt = self._felt_ground.step(

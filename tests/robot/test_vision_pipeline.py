@@ -7,7 +7,8 @@ import pytest
 
 from robot_agent.evaluation.textured_ground import TexturedGround
 from robot_agent.mapping import TerrainMap
-from robot_agent.pipeline import VisionPipeline, VisionTick
+from robot_agent.perception import FeltGround
+from robot_agent.pipeline import FELT_LIFETIME_NS, VisionPipeline, VisionTick
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.frames import GRAVITY
 from weaver_shared.leg_batch import LegBatch
@@ -29,7 +30,7 @@ class Standing:
         self._at_rest = robot.imu.body_from_imu.rotation.T @ np.array([0.0, 0.0, GRAVITY])
         self._frames = 0
 
-    def step(self, *, closely: bool = False) -> VisionTick:
+    def step(self, *, closely: bool = False, legs: LegBatch | None = None) -> VisionTick:
         self._frames += 1
         end_ns = self._frames * FRAME_NS
         stamps = np.arange(end_ns - FRAME_NS + SAMPLE_NS, end_ns + 1, SAMPLE_NS)
@@ -39,7 +40,7 @@ class Standing:
             specific_force_in_imu=np.tile(self._at_rest, (len(stamps), 1)),
         )
         frame = self._ground.look(end_ns, self._frames, self._world_from_body)
-        return self._pipeline.step(frame, imu, LegBatch.empty(), closely=closely)
+        return self._pipeline.step(frame, imu, legs or LegBatch.empty(), closely=closely)
 
 
 def test_the_map_is_told_how_odometry_sees_earlier_pictures_now(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -64,3 +65,21 @@ def test_a_close_look_is_taken_of_a_picture_that_would_be_left_out() -> None:
     assert left_out.look.cells > 2000
     assert left_out.look.sigma < 0.002
     assert standing.step().look is None
+
+
+def test_a_picture_without_a_reading_of_the_legs_keeps_what_was_felt(monkeypatch: pytest.MonkeyPatch) -> None:
+    felt: list[int] = []
+    step = FeltGround.step
+    monkeypatch.setattr(FeltGround, "step", lambda self, sense: felt.append(sense.stamp_ns) or step(self, sense))
+    robot, standing = load_robot("weaver"), Standing(perceive_every=2)
+    for tick in range(40):
+        told = LegBatch(
+            stamp_ns=np.array([(tick + 1) * FRAME_NS]),
+            joint_position=np.zeros((1, robot.joint_count)),
+            joint_torque=np.zeros((1, robot.joint_count)),
+            foot_contact=np.ones((1, robot.leg_count), dtype=np.bool_),
+        )
+        standing.step(legs=told if tick < 20 else None)
+    silent = [stamp_ns for stamp_ns in felt if stamp_ns > 20 * FRAME_NS]
+    assert felt[:20] == [(tick + 1) * FRAME_NS for tick in range(20)]
+    assert silent[0] == 20 * FRAME_NS + FELT_LIFETIME_NS  # from then on the feet are taken for gone
