@@ -9,10 +9,10 @@ from pathlib import Path
 from robot_agent.calibration.drawing import drawn
 from robot_agent.calibration.guided import GuidedCalibration
 from robot_agent.calibration.guided_results import figures, save
-from robot_agent.calibration.guided_session import Solved
+from robot_agent.calibration.guided_session import Solved, guided_state
 from robot_agent.calibration.rig import Rig
 from robot_agent.calibration.target import Target
-from weaver_shared.messages import CalibrationState, CalibrationWish, ImuBatch, StereoFrame
+from weaver_shared.messages import CalibrationState, ImuBatch, StereoFrame
 
 
 class CameraSession:
@@ -32,16 +32,7 @@ class CameraSession:
         """Lenses do not depend on it."""
 
     def filled(self, state: CalibrationState) -> CalibrationState:
-        guided = self._guided
-        return replace(
-            state,
-            pictures=guided.pictures,
-            views=guided.views,
-            seen=tuple(len(s) if s else 0 for s in guided.sightings),
-            cover=guided.cover(),
-            wishes=tuple(CalibrationWish(what=w.what, met=bool(w.met), advice=w.advice) for w in guided.wishes()),
-            advice=guided.advice(),
-        )
+        return replace(guided_state(state, self._guided), cover=self._guided.cover())
 
     def solve(self, model: str, folder: Path, tell: Callable[[str], None]) -> Solved:
         guided = self._guided

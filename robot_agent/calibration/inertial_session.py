@@ -8,11 +8,11 @@ from pathlib import Path
 
 from robot_agent.calibration.drawing import drawn
 from robot_agent.calibration.guided_inertial import GuidedInertial
-from robot_agent.calibration.guided_session import Solved
+from robot_agent.calibration.guided_session import Solved, guided_state
 from robot_agent.calibration.inertial_words import inertial_figures
 from robot_agent.calibration.kalibr_files import write_camchain, write_imu, write_target
 from robot_agent.calibration.report import inertial_sections, write_report
-from weaver_shared.messages import CalibrationState, CalibrationWish, ImuBatch, StereoFrame
+from weaver_shared.messages import CalibrationState, ImuBatch, StereoFrame
 from weaver_shared.transforms import Pose
 
 
@@ -36,16 +36,7 @@ class InertialSession:
 
     def filled(self, state: CalibrationState) -> CalibrationState:
         guided = self._guided
-        return replace(
-            state,
-            pictures=guided.pictures,
-            views=guided.views,
-            seen=tuple(len(s) if s else 0 for s in guided.sightings),
-            seconds=guided.seconds,
-            motions=tuple(guided.motions()),
-            wishes=tuple(CalibrationWish(what=w.what, met=bool(w.met), advice=w.advice) for w in guided.wishes()),
-            advice=guided.advice(),
-        )
+        return replace(guided_state(state, guided), seconds=guided.seconds, motions=tuple(guided.motions()))
 
     def solve(self, model: str, folder: Path, tell: Callable[[str], None]) -> Solved:
         guided = self._guided

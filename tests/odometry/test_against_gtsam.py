@@ -4,7 +4,7 @@ import gtsam
 import numpy as np
 import pytest
 from gtsam.symbol_shorthand import B, L, V, X
-from walking_motion import FRAME_NS, Ground, Walk, as_samples, inertia
+from walking_motion import FRAME_NS, Ground, Walk, as_samples, begin_window, inertia
 
 from robot_agent.odometry.landmarks import LEFT, RIGHT, Eyes
 from robot_agent.odometry.preintegration import Preintegrations, begin, integrate
@@ -74,17 +74,7 @@ def error_of_window(robot: RobotDescription, calibration: StereoCalibration, eye
     at_rest, frames = walked
     window = SlidingWindow(eyes, robot.imu, calibration.left.fx, OdometryConfig())
     _, first, start = frames[0]
-    beginning = begin_at_rest(at_rest, start.rotation, robot.imu, StartConfig())
-    window.begin(
-        FIRST * FRAME_NS,
-        rotation=beginning.rotation,
-        position=start.position,
-        velocity=np.zeros(3),
-        gyro_bias=beginning.gyro_bias,
-        accel_bias=beginning.accel_bias,
-        rate=np.zeros(3),
-        information=beginning.information,
-    )
+    begin_window(window, robot, start, at_rest, FIRST * FRAME_NS)
     window.see(first)
     for k, (samples, tracks, _) in enumerate(frames[1:], start=FIRST + 1):
         rate = samples[-1, 1:4] - window.frames.gyro_bias[window.newest]

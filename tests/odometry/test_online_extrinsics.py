@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from walking_motion import FRAME_NS, Ground, Walk, as_samples, inertia
+from walking_motion import FRAME_NS, Ground, Walk, as_samples, begin_window, inertia
 
 from robot_agent.odometry.landmarks import Eyes
-from robot_agent.odometry.start import begin_at_rest
 from robot_agent.odometry.window import SlidingWindow
 from robot_agent.vision.camera import StereoCalibration
-from weaver_shared.config.odometry import OdometryConfig, StartConfig, WindowConfig
+from weaver_shared.config.odometry import OdometryConfig, WindowConfig
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import Pose, rotation_exp, rotation_log
 
@@ -36,17 +35,7 @@ def _followed(
     window = SlidingWindow(believed, robot.imu, calibration.left.fx, OdometryConfig(window=config))
     start = walk.body(0.5) @ mount
     samples = as_samples(inertia(walk, robot, 0, 10 * FRAME_NS, random, GYRO_BIAS, ACCEL_BIAS))
-    beginning = begin_at_rest(samples, start.rotation, robot.imu, StartConfig())
-    window.begin(
-        10 * FRAME_NS,
-        rotation=beginning.rotation,
-        position=start.position,
-        velocity=np.zeros(3),
-        gyro_bias=beginning.gyro_bias,
-        accel_bias=beginning.accel_bias,
-        rate=np.zeros(3),
-        information=beginning.information,
-    )
+    begin_window(window, robot, start, samples, 10 * FRAME_NS)
     window.see(ground.tracks(start))
     for k in range(11, round(SECONDS * 1e9) // FRAME_NS):
         samples = as_samples(inertia(walk, robot, (k - 1) * FRAME_NS, k * FRAME_NS, random, GYRO_BIAS, ACCEL_BIAS))

@@ -2,16 +2,15 @@
 
 import numpy as np
 import pytest
-from walking_motion import FRAME_NS, Ground, Walk, as_samples, inertia
+from walking_motion import FRAME_NS, Ground, Walk, as_samples, begin_window, inertia
 
 from robot_agent.odometry.landmarks import Eyes
 from robot_agent.odometry.prior import Prior, eliminate
-from robot_agent.odometry.start import begin_at_rest
 from robot_agent.odometry.tracks import Tracks
 from robot_agent.odometry.window import SlidingWindow
 from robot_agent.odometry.window_state import COMMON, STATE, Frames, unknowns
 from robot_agent.vision.camera import StereoCalibration
-from weaver_shared.config.odometry import OdometryConfig, StartConfig
+from weaver_shared.config.odometry import OdometryConfig
 from weaver_shared.frames import GRAVITY
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import rotation_log
@@ -41,17 +40,7 @@ class Followed:
 
         samples = sense(0, 10 * FRAME_NS)
         start = walk.body(0.5) @ mount
-        beginning = begin_at_rest(samples, start.rotation, robot.imu, StartConfig())
-        window.begin(
-            10 * FRAME_NS,
-            rotation=beginning.rotation,
-            position=start.position,
-            velocity=np.zeros(3),
-            gyro_bias=beginning.gyro_bias,
-            accel_bias=beginning.accel_bias,
-            rate=np.zeros(3),
-            information=beginning.information,
-        )
+        begin_window(window, robot, start, samples, 10 * FRAME_NS)
         window.see(ground.tracks(start))
         self.most_frames = 0
         for k in range(11, round(seconds * 1e9) // FRAME_NS):

@@ -8,8 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.odometry.landmarks import LEFT, RIGHT, Eyes
+from robot_agent.odometry.start import begin_at_rest
 from robot_agent.odometry.tracks import Tracks
+from robot_agent.odometry.window import SlidingWindow
 from robot_agent.vision.camera import StereoCalibration
+from weaver_shared.config.odometry import StartConfig
 from weaver_shared.frames import GRAVITY
 from weaver_shared.messages import ImuBatch
 from weaver_shared.robots import RobotDescription
@@ -82,6 +85,21 @@ def as_samples(batch: ImuBatch) -> Array:
     """(n, 7) duration, angular velocity, specific force."""
     durations = np.full(len(batch.stamp_ns), SAMPLE_NS * 1e-9)
     return np.column_stack([durations, batch.angular_velocity_in_imu, batch.specific_force_in_imu])
+
+
+def begin_window(window: SlidingWindow, robot: RobotDescription, start: Pose, at_rest: Array, stamp_ns: int) -> None:
+    """Begin at world_from_imu `start` with what `at_rest` (n, 7) samples of standing tell of tilt and biases."""
+    beginning = begin_at_rest(at_rest, start.rotation, robot.imu, StartConfig())
+    window.begin(
+        stamp_ns,
+        rotation=beginning.rotation,
+        position=start.position,
+        velocity=np.zeros(3),
+        gyro_bias=beginning.gyro_bias,
+        accel_bias=beginning.accel_bias,
+        rate=np.zeros(3),
+        information=beginning.information,
+    )
 
 
 class Ground:
