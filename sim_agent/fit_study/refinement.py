@@ -37,5 +37,4 @@ def refined(best: Parameters, trials: list[Trial]) -> list[Trial]:
         replace(trial, virtual_stiffness=c, stride_frequency=f, stride_height=h)
         for trial in {trial.seed: trial for trial in trials}.values()
         for c, f, h in halfway(best, known)
-        if (c, f, h) not in known
     ]

@@ -69,6 +69,13 @@ def test_sideways_speed_is_bounded_where_equation_2_is_not():
         assert abs(PathFollower().step(pose(1.0, e, 1e-9), PATH, 1).velocity[1]) <= limit
 
 
+def test_a_robot_that_has_to_turn_round_stays_near_its_path():
+    there_and_back = (*PATH, Waypoint(x=0.0, y=0.0))
+    places, done = walk(there_and_back, 3.0, 0.0, 0.0)
+    assert done
+    assert 0.0 < np.abs(places[:, 1]).max() < 0.16
+
+
 def test_the_next_segment_begins_inside_the_circle_of_acceptance():
     corner = (*PATH, Waypoint(x=4.0, y=3.0))
     assert PathFollower().step(pose(3.45, 0.0), corner, 1).index == 1
