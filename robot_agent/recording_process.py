@@ -9,6 +9,7 @@ from datetime import datetime
 
 from robot_agent.recording import Recorder, RecordingWriter
 from robot_agent.recording.store import RecordingStore
+from robot_agent.replays import Replays
 from robot_agent.waiting_orders import WaitingOrders
 from weaver_shared import topics
 from weaver_shared.bus import Bus
@@ -44,6 +45,7 @@ class RecordingProcess:
         bus: Bus,
         open_bus: Callable[[], Bus],
         store: RecordingStore,
+        replays: Replays,
         clock: Clock,
         wall_time: Callable[[], datetime],
     ) -> None:
@@ -52,6 +54,7 @@ class RecordingProcess:
         self._bus = bus
         self._open_bus = open_bus
         self._store = store
+        self._replays = replays
         self._clock = clock
         self._wall_time = wall_time
         self._orders = WaitingOrders()
@@ -84,9 +87,10 @@ class RecordingProcess:
             self._tell()
 
     def close(self) -> None:
-        """End the recording that runs, if any; its file is whole afterwards."""
+        """End the recording that runs, if any; its file is whole afterwards. Replays end too."""
         if self._running is not None:
             self._end("")
+        self._replays.close()
 
     def _carry_out(self, command: Command) -> Answer:
         try:
@@ -98,6 +102,8 @@ class RecordingProcess:
                     raise ResourceError("nothing is being recorded")
                 text = f"stop recording {self._running.writer.path.name}"
                 self._end("")
+            elif command.command is CommandName.START_REPLAY:
+                text = f"replay {self._replay(command.name)}"
             else:
                 raise ResourceError(f"the recorder does not know {command.command.value}")
         except WeaverError as error:
@@ -106,6 +112,13 @@ class RecordingProcess:
             return Answer(accepted=False, reason=str(error))
         self._note(Severity.INFO, text, command.operator)
         return Answer(accepted=True, reason="", applied_value=command.value)
+
+    def _replay(self, name: str) -> str:
+        """Raises ResourceError that says why not."""
+        if self._running is not None and name == self._running.writer.path.name:
+            raise ResourceError(f"{name} is still being recorded; stop the recording first")
+        self._replays.begin(self._store.path(name))
+        return name
 
     def _begin(self, *, pictures: bool) -> None:
         """Raises ResourceError that says what is in the way."""

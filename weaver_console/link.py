@@ -35,6 +35,8 @@ WATCHED: tuple[Topic, ...] = (
     topics.MISSION,
     topics.OUTLOOK,
     topics.RECORDING,
+    topics.REPLAY,
+    topics.REPLAY_MARKS,
     topics.CALIBRATION,
     topics.TRUTH,
 )
@@ -43,6 +45,10 @@ WATCHED: tuple[Topic, ...] = (
 ELSEWHERE = {
     CommandName.START_RECORDING: topics.RECORDER_COMMANDS,
     CommandName.STOP_RECORDING: topics.RECORDER_COMMANDS,
+    CommandName.START_REPLAY: topics.RECORDER_COMMANDS,
+    CommandName.PLAY_REPLAY: topics.REPLAY_COMMANDS,
+    CommandName.JUMP_REPLAY: topics.REPLAY_COMMANDS,
+    CommandName.END_REPLAY: topics.REPLAY_COMMANDS,
     CommandName.LOOK_CLOSELY: topics.VISION_COMMANDS,
     CommandName.START_CALIBRATION: topics.CALIBRATOR_COMMANDS,
     CommandName.SOLVE_CALIBRATION: topics.CALIBRATOR_COMMANDS,
@@ -97,8 +103,10 @@ class Link:
         """Notice lost and returned robots and measure rates; called about ten times a second."""
         now_ns = self.clock.now_ns()
         with self.lock:
-            for record in self._records.values():
+            for record in self.robots():
                 self._check_heartbeat(record, now_ns)
+                if record.replays and not record.processes and not record.alive:
+                    del self._records[record.robot_id]  # a replay that has ended is nobody to wait for
             elapsed = (now_ns - self._rates_ns) * 1e-9
             if elapsed >= 1.0:
                 self._rates_ns = now_ns
@@ -147,7 +155,7 @@ class Link:
                 self.events.add(robot_id, Severity.ERROR, "console", record.conflict(now_ns))
 
     def _note_restart(self, record: RobotRecord, restarted: bool) -> None:
-        if restarted:
+        if restarted and not record.replays:  # which begins anew when it is wound back
             text = f"{record.robot_id} has started anew; its map and mission are new"
             self.events.add(record.robot_id, Severity.WARNING, "console", text)
 

@@ -172,7 +172,7 @@ class PageSession:
         self.tell({"type": "selected", "robot": robot})
 
     def _controls(self, record: RobotRecord) -> bool:
-        held = record.lease is not None and record.lease.holder == self.operator
+        held = record.lease is not None and record.lease.holder == self.operator and not record.replays
         return held and record.heard(self._link.clock.now_ns())
 
     def _command(self, request: p.CommandRequest) -> None:

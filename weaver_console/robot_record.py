@@ -12,6 +12,9 @@ from weaver_shared.robots import RobotDescription
 
 M = TypeVar("M")
 
+REPLAY = "REPLAY"
+"""The kind under which a replay presents itself."""
+
 HEARTBEAT_TIMEOUT_NS = 1_000_000_000
 """Silence after which a robot counts as lost."""
 
@@ -115,6 +118,11 @@ class RobotRecord:
         if self.intruder_ns is None or now_ns - self.intruder_ns > CONFLICT_NS:
             return ""
         return f"two robots answer to the id {self.robot_id!r}; stop one of them or start it with another id"
+
+    @property
+    def replays(self) -> bool:
+        """Whether this is a recording that is being replayed, and no robot."""
+        return self.presence is not None and self.presence.kind == REPLAY
 
     @property
     def mode(self) -> ModeState | None:

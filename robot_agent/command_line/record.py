@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import logging
+import os
 import signal
+import subprocess
 import sys
 import threading
 from collections.abc import Callable
@@ -14,6 +16,7 @@ from pathlib import Path
 from robot_agent.recording import Recorder, RecordingWriter
 from robot_agent.recording.store import RecordingStore
 from robot_agent.recording_process import RecordingProcess
+from robot_agent.replays import Replays
 from weaver_shared.bus import ZenohBus
 from weaver_shared.clock import MonotonicClock
 from weaver_shared.robots import RobotDescription, load_robot
@@ -41,6 +44,7 @@ def main(arguments: list[str]) -> int:
             bus=bus,
             open_bus=open_bus,
             store=RecordingStore(options.folder),
+            replays=Replays(lambda path, name: _start_replay(path, name, options.connect)),
             clock=MonotonicClock(),
             wall_time=_now,
         ).run(ended)
@@ -75,6 +79,12 @@ def _record(
     lost = f", {recorder.lost} messages lost to a slow disk" if recorder.lost else ""
     print(f"{writer.path}: {writer.seconds:.1f} s of {options.robot_id}{lost}", file=sys.stderr)
     return 0
+
+
+def _start_replay(path: Path, name: str, endpoints: str) -> subprocess.Popen[bytes]:
+    command = [sys.executable, "-m", "weaver_shared.command_line", "replay", str(path), "--robot-id", name]
+    command += ["--connect", endpoints, "--attended"]
+    return subprocess.Popen(command, stdin=subprocess.DEVNULL, preexec_fn=lambda: os.nice(10))  # noqa: PLW1509
 
 
 def _now() -> datetime:

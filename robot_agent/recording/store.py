@@ -11,7 +11,7 @@ from robot_agent.recording.file_format import SUFFIX
 from robot_agent.recording.file_parts import file_part
 from robot_agent.recording.reader import open_recording
 from robot_agent.recording.span import recorded_span
-from weaver_shared.errors import InputError
+from weaver_shared.errors import InputError, ResourceError
 from weaver_shared.messages import PartRequest, RecordingEntry, RecordingPart
 
 MOST_LISTED = 50
@@ -46,6 +46,12 @@ class RecordingStore:
         while not folder.exists() and folder != folder.parent:
             folder = folder.parent
         return shutil.disk_usage(folder).free
+
+    def path(self, name: str) -> Path:
+        """Where a recording lies. Raises ResourceError when the name is none of a file here."""
+        if not _NAME.fullmatch(name):
+            raise ResourceError(f"{name!r:.60} is not the name of a recording")
+        return self.folder / name
 
     def part(self, request: PartRequest) -> RecordingPart:
         """Some of a file's bytes; never raises."""

@@ -82,6 +82,8 @@ LEASE = _topic("state/lease", m.LeaseState, 5.0, Priority.INTERACTIVE, Policy.RE
 MISSION = _topic("state/mission", m.MissionState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 OUTLOOK = _topic("state/outlook", m.MissionOutlook, 2.0, Priority.DATA, Policy.RELIABLE)
 RECORDING = _topic("state/recording", m.RecordingState, 1.0, Priority.DATA, Policy.RELIABLE)
+REPLAY = _topic("state/replay", m.ReplayState, 10.0, Priority.INTERACTIVE, Policy.RELIABLE)
+REPLAY_MARKS = _topic("state/replay_marks", m.ReplayMarks, 0.0, Priority.DATA, Policy.RELIABLE)
 CALIBRATION = _topic("state/calibration", m.CalibrationState, 2.0, Priority.DATA, Policy.RELIABLE)
 PRESENCE = _topic("state/presence", m.Presence, 1.0, Priority.DATA, Policy.RELIABLE)
 EVENT = _topic("event", m.Event, 0.0, Priority.DATA, Policy.LOGGED)
@@ -105,6 +107,9 @@ def _no_part(reason: str) -> m.RecordingPart:
 COMMANDS = Query(key="cmd", question=m.Command, answer=m.Answer, priority=Priority.REAL_TIME, refuse=_refused)
 RECORDER_COMMANDS = Query(
     key="cmd/recorder", question=m.Command, answer=m.Answer, priority=Priority.INTERACTIVE, refuse=_refused
+)
+REPLAY_COMMANDS = Query(
+    key="cmd/replay", question=m.Command, answer=m.Answer, priority=Priority.INTERACTIVE, refuse=_refused
 )
 VISION_COMMANDS = Query(
     key="cmd/vision", question=m.Command, answer=m.Answer, priority=Priority.INTERACTIVE, refuse=_refused
@@ -132,6 +137,7 @@ QUERIES: tuple[Query[Any, Any], ...] = (
     COMMANDS,
     RECORDER_COMMANDS,
     RECORDING_PART,
+    REPLAY_COMMANDS,
     CALIBRATOR_COMMANDS,
     CALIBRATION_PART,
     VISION_COMMANDS,

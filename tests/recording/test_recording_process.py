@@ -17,6 +17,7 @@ from robot_agent import recording_process
 from robot_agent.recording import open_recording
 from robot_agent.recording.store import RecordingStore
 from robot_agent.recording_process import RecordingProcess
+from robot_agent.replays import Replays
 from weaver_shared import topics
 from weaver_shared.bus import MemoryBus
 from weaver_shared.clock import SimulatedClock
@@ -31,7 +32,7 @@ from weaver_shared.messages import (
     StereoFrame,
 )
 
-START, STOP = CommandName.START_RECORDING, CommandName.STOP_RECORDING
+START, STOP, REPLAY = CommandName.START_RECORDING, CommandName.STOP_RECORDING, CommandName.START_REPLAY
 
 
 @dataclass(kw_only=True)
@@ -42,11 +43,12 @@ class Desk:
     clock: SimulatedClock
     process: RecordingProcess
     workers: ThreadPoolExecutor
+    played: list[tuple[Path, str]]
     told: list[RecordingState] = field(default_factory=list)
     events: list[Event] = field(default_factory=list)
 
-    def order(self, name: CommandName, value: float = 0.0) -> Answer:
-        command = Command(command=name, operator="anna", lease_epoch=0, sequence=1, value=value)
+    def order(self, name: CommandName, value: float = 0.0, text: str = "") -> Answer:
+        command = Command(command=name, operator="anna", lease_epoch=0, sequence=1, value=value, name=text)
         asked = self.workers.submit(self.bus.ask, ROBOT_ID, topics.RECORDER_COMMANDS, command)
         while not asked.done():
             self.process.turn()
@@ -61,21 +63,43 @@ class Desk:
 def desk(tmp_path: Path) -> Iterator[Desk]:
     bus, clock = MemoryBus(), SimulatedClock()
     heard = MemoryBusEar(bus)
+    played: list[tuple[Path, str]] = []
     process = RecordingProcess(
         robot_id=ROBOT_ID,
         robot=ROBOT,
         bus=bus,
         open_bus=heard.open,
         store=RecordingStore(tmp_path / "recordings"),
+        replays=Replays(lambda path, name: _playing(played, path, name)),
         clock=clock,
         wall_time=lambda: datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC),
     )
     with ThreadPoolExecutor(1) as workers:
-        made = Desk(bus=bus, clock=clock, process=process, workers=workers)
+        made = Desk(bus=bus, clock=clock, process=process, workers=workers, played=played)
         bus.subscribe(ROBOT_ID, topics.RECORDING, lambda _id, _key, state: made.told.append(state))
         bus.subscribe(ROBOT_ID, topics.EVENT, lambda _id, _key, event: made.events.append(event))
         yield made
         process.close()
+
+
+class Playing:
+    """A process that plays until it is told to end."""
+
+    ended = False
+
+    def poll(self) -> int | None:
+        return 0 if self.ended else None
+
+    def terminate(self) -> None:
+        self.ended = True
+
+    def wait(self, timeout: float) -> int:
+        return 0
+
+
+def _playing(played: list[tuple[Path, str]], path: Path, name: str) -> Playing:
+    played.append((path, name))
+    return Playing()
 
 
 class MemoryBusEar:
@@ -117,6 +141,27 @@ def test_a_recording_begins_and_ends_as_it_is_told(desk: Desk) -> None:
         ("anna", "start recording"),
         ("anna", f"stop recording {entry.name}"),
     ]
+
+
+def test_a_recording_is_replayed_once_under_a_name_of_its_own(desk: Desk) -> None:
+    desk.order(START, 0.0)
+    active = desk.told[-1].active
+    refused = desk.order(REPLAY, text=active)
+    assert not refused.accepted
+    assert "still being recorded" in refused.reason
+    desk.order(STOP)
+    assert desk.order(REPLAY, text=active).accepted
+    assert desk.order(REPLAY, text=active).accepted
+    ((path, name),) = desk.played
+    assert (path.name, name) == (active, "replay-sim-1_2026-01-02_03-04-05")
+
+
+@pytest.mark.parametrize("name", ["", "../secret.mcap", "never.mcap", "sim-1.txt"])
+def test_only_recordings_that_are_there_are_replayed(desk: Desk, name: str) -> None:
+    answer = desk.order(REPLAY, text=name)
+    assert not answer.accepted
+    assert "recording" in answer.reason
+    assert not desk.played
 
 
 def test_pictures_are_left_out_when_nobody_wants_them(desk: Desk) -> None:

@@ -19,6 +19,7 @@ PARTS = {
     "ImuBatch",
     "LoopTiming",
     "RecordingEntry",
+    "ReplayMark",
     "Waypoint",
 }  # travel within others
 

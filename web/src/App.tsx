@@ -10,6 +10,8 @@ import { Notices } from "./events/Notices";
 import { MissionPanel } from "./mission/MissionPanel";
 import { useUndoKeys } from "./mission/useUndoKeys";
 import { RecordingPanel } from "./recording/RecordingPanel";
+import { ReplayBar } from "./replay/ReplayBar";
+import { useIsReplay } from "./replay/commands";
 import { RobotPanel } from "./robot/RobotPanel";
 import { Views } from "./scene/Views";
 import { StatusPanel } from "./status/StatusPanel";
@@ -41,23 +43,29 @@ export function App() {
 }
 
 function Work() {
+  const replay = useIsReplay();
   return (
     <main className="work">
-      <div className="work-views">
+      <div className="work-views" data-replay={replay}>
         <Views />
+        {replay && <ReplayBar />}
         <EventLog />
       </div>
       <div className="work-panels">
         <div className="panel-column">
           <MissionPanel />
           <RobotPanel />
-          <TeleopPanel />
-          <BodyPanel />
+          {replay ? null : (
+            <>
+              <TeleopPanel />
+              <BodyPanel />
+            </>
+          )}
         </div>
         <div className="panel-column">
           <AdaptationPanel />
           <StatusPanel />
-          <RecordingPanel />
+          {replay ? null : <RecordingPanel />}
         </div>
       </div>
     </main>

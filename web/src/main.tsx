@@ -8,6 +8,7 @@ import "./style/base.css";
 import "./style/topbar.css";
 import "./style/views.css";
 import "./style/panels.css";
+import "./style/replay.css";
 import "./style/calibration.css";
 import { colourVariables, theme } from "./theme";
 

@@ -27,6 +27,9 @@ from weaver_shared.messages.recording import (
     RecordingEntry,
     RecordingPart,
     RecordingState,
+    ReplayMark,
+    ReplayMarks,
+    ReplayState,
 )
 from weaver_shared.messages.sensing import (
     CameraPicture,
@@ -90,6 +93,9 @@ __all__ = [
     "RecordingEntry",
     "RecordingPart",
     "RecordingState",
+    "ReplayMark",
+    "ReplayMarks",
+    "ReplayState",
     "RobotState",
     "RoutePlan",
     "SafetyAction",

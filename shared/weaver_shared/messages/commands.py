@@ -39,6 +39,10 @@ class CommandName(StrEnum):
     LOOK_CLOSELY = "look_closely"  # the next picture in full resolution into the map; the vision loop's, needs no lease
     START_RECORDING = "start_recording"  # value 1: with the stereo pictures, 0: without; the recorder's, needs no lease
     STOP_RECORDING = "stop_recording"  # the recorder's, needs no lease
+    START_REPLAY = "start_replay"  # name of a recording; the recorder's, needs no lease
+    PLAY_REPLAY = "play_replay"  # value: recorded s a second, 0 to pause; of a replay, needs no lease
+    JUMP_REPLAY = "jump_replay"  # value: s from the recording's beginning; likewise
+    END_REPLAY = "end_replay"  # likewise
     START_CALIBRATION = "start_calibration"  # name: [imu] TARGET [with CALIBRATION] [from RECORDING]; needs no lease
     SOLVE_CALIBRATION = "solve_calibration"  # name of the lens model: radtan, equidistant; likewise
     END_CALIBRATION = "end_calibration"  # likewise

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from weaver_shared.messages.telemetry import Severity
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecordingEntry:
@@ -44,3 +46,31 @@ class RecordingPart:
     data: bytes
     size: int  # B of the whole file
     reason: str  # why there is nothing; empty when there is
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReplayState:
+    """Where the replay of a recording is, 10 Hz. A replay speaks as a robot of its own, of the kind REPLAY."""
+
+    stamp_ns: int  # recorded robot's clock
+    recording: str  # name of the file
+    robot_id: str  # who was recorded
+    started: str  # when, wall time, ISO 8601
+    seconds: float  # from the recording's beginning
+    length: float  # s
+    speed: float  # recorded s a second; 0 paused
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReplayMark:
+    """An event of the recording, to go to."""
+
+    seconds: float  # from the recording's beginning
+    severity: Severity
+    source: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReplayMarks:
+    marks: tuple[ReplayMark, ...]  # by time

@@ -36,11 +36,14 @@ export function command(name: CommandName, fields: CommandFields = {}): Promise<
 /** Stops the robot now, or as soon as the console can be reached again. */
 export function stopRobot(): void {
   const { selected, robots } = useConsole.getState();
-  if (selected === null && robots.length === 0) {
+  const stoppable = robots.filter((robot) => robot.kind !== "REPLAY");
+  if (selected === null && stoppable.length === 0) {
     notify("warning", "No robot is selected, so there is nothing to stop.");
     return;
   }
-  const targets = selected === null ? robots.map((robot) => robot.id) : [selected];
+  // NOTE: who stops while looking at a recording means whatever moves.
+  const replay = robots.some((robot) => robot.id === selected && robot.kind === "REPLAY");
+  const targets = selected === null || replay ? stoppable.map((robot) => robot.id) : [selected];
   for (const robot of targets) {
     const id = String(++lastId);
     if (send({ type: "command", id, command: "stop", robot })) continue;

@@ -15,6 +15,7 @@ export function holder(state: ConsoleState): string {
 
 export function holdsControl(state: ConsoleState): boolean {
   const lease = latest(state, "state/lease");
+  if (selectedRobot(state)?.kind === "REPLAY") return false; // it tells who had control then
   if (lease === undefined || state.hello === null || lease.value.holder !== state.hello.operator) return false;
   const { level } = freshness(lease.received, state.now, limitsOf("state/lease"), true);
   return level === "live" || level === "stale";
@@ -24,6 +25,7 @@ export function holdsControl(state: ConsoleState): boolean {
 export function unreachable(state: ConsoleState): string | null {
   if (state.connection !== "open") return "the console is unreachable";
   if (selectedRobot(state) === undefined) return "no robot is selected";
+  if (selectedRobot(state)?.kind === "REPLAY") return "this is a recording, not a robot";
   if (selectedRobot(state)?.alive === false) return "the robot is silent";
   return null;
 }

@@ -13,6 +13,8 @@ import type {
   MotionOrders,
   PowerState,
   RecordingState,
+  ReplayMarks,
+  ReplayState,
   RobotState,
   TruthState,
 } from "../protocol/messages";
@@ -31,6 +33,8 @@ export interface Topics {
   "state/mission": MissionState;
   "state/outlook": MissionOutlook;
   "state/recording": RecordingState;
+  "state/replay": ReplayState;
+  "state/replay_marks": ReplayMarks;
   "state/calibration": CalibrationState;
   "truth/state": TruthState;
   [health: `tele/health/${string}`]: Health;

@@ -13,9 +13,21 @@ export function useFreshness(key: string): Freshness {
 }
 
 export function freshnessOf(state: ConsoleState, key: string): Freshness {
-  const { level, age } = freshness(state.values[key]?.received, state.now, limitsOf(key), state.connection === "open");
+  const source = state.values["state/replay"] === undefined ? key : "state/replay";
+  const heard = freshness(state.values[source]?.received, state.now, limitsOf(source), state.connection === "open");
+  const { level, age } = source === key ? heard : freshnessInReplay(state, key, heard);
   return { level, age: level === "live" ? 0 : age < 1 ? Math.round(age * 10) / 10 : Math.round(age) };
 }
+
+/** In a replay ages are counted in recorded time, so that a pause makes nothing old and a recorded gap is seen. */
+function freshnessInReplay(state: ConsoleState, key: string, replay: Freshness): Freshness {
+  const value = state.values[key]?.value as { stamp_ns?: number } | undefined;
+  if (value === undefined || replay.level !== "live") return value === undefined ? NEVER : replay;
+  const now = (latest(state, "state/replay")?.value.stamp_ns ?? 0) / 1e6; // ms
+  return freshness(value.stamp_ns === undefined ? now : value.stamp_ns / 1e6, now, limitsOf(key), true);
+}
+
+const NEVER: Freshness = { level: "never", age: NaN };
 
 /** Keys now known under a prefix, sorted: one a process or a camera. */
 export function useKeys(prefix: string): string[] {

@@ -7,7 +7,7 @@ export interface Waypoint {
   y: number;
 }
 
-export type RobotKind = "SIM" | "EMULATED BUS" | "REAL";
+export type RobotKind = "SIM" | "EMULATED BUS" | "REAL" | "REPLAY";
 export type Severity = "info" | "warning" | "error";
 export type Mode = "OFF" | "READY" | "STAND" | "WALK" | "SIT" | "HOLD" | "FAULT" | "ESTOP";
 
@@ -44,6 +44,10 @@ export const COMMAND_NAMES = [
   "look_closely",
   "start_recording",
   "stop_recording",
+  "start_replay",
+  "play_replay",
+  "jump_replay",
+  "end_replay",
   "start_calibration",
   "solve_calibration",
   "end_calibration",
@@ -275,6 +279,30 @@ export interface RecordingState {
   folder: string;
   free: number;
   entries: RecordingEntry[];
+}
+
+/** Where the replay of a recording is. */
+export interface ReplayState {
+  /** Recorded robot's clock. */
+  stamp_ns: number;
+  recording: string;
+  robot_id: string;
+  started: string;
+  seconds: number;
+  length: number;
+  /** Recorded seconds a second; 0 paused. */
+  speed: number;
+}
+
+export interface ReplayMark {
+  seconds: number;
+  severity: Severity;
+  source: string;
+  text: string;
+}
+
+export interface ReplayMarks {
+  marks: ReplayMark[];
 }
 
 export interface TruthState {

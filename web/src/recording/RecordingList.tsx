@@ -1,6 +1,7 @@
 /** Recordings that are there, newest first, each with its length and size to download. */
 import { useState } from "react";
 import type { RecordingEntry } from "../protocol/messages";
+import { startReplay } from "../replay/commands";
 import { addressOf, clockOf, sizeOf, startOf } from "./figures";
 
 const SHOWN_AT_FIRST = 4;
@@ -24,6 +25,14 @@ export function RecordingList({ robot, entries }: { robot: string; entries: read
             </span>
             <span className="number">{clockOf(entry.seconds)}</span>
             <span className="number">{sizeOf(entry.size)}</span>
+            <button
+              type="button"
+              className="link-button"
+              aria-label={`Replay ${entry.name}`}
+              onClick={() => void startReplay(entry.name)}
+            >
+              Replay
+            </button>
             <a href={addressOf(robot, entry.name)} download={entry.name} aria-label={`Download ${entry.name}`}>
               Download
             </a>
