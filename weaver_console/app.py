@@ -19,9 +19,11 @@ from fastapi.responses import FileResponse, HTMLResponse, JSONResponse, Redirect
 
 from weaver_console import built_page
 from weaver_console.access import COOKIE, VALID_S, Access
+from weaver_console.database import data_folder
 from weaver_console.hub import Hub
 from weaver_console.mission_api import add_mission_api
 from weaver_console.page_session import PageSession
+from weaver_console.rerun_viewer import add_rerun
 from weaver_console.robot_files import add_robot_files
 from weaver_console.roster import describe
 from weaver_console.scene_page import scene_page
@@ -42,6 +44,13 @@ SCENE_POLICY = (
 Its sandbox has no origin that 'self' could stand for in a worker, so the host is named.
 """
 
+RERUN_POLICY = (
+    "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval' 'wasm-unsafe-eval' blob:; "
+    "worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; connect-src 'self' blob:; "
+    "frame-ancestors 'self'; object-src 'none'; base-uri 'self'; form-action 'none'"
+)
+"""Rerun's viewer would ask for fonts and news of other hosts; it works without."""
+
 _HOST = re.compile(r"[A-Za-z0-9.:\[\]-]{1,255}")
 
 LARGEST_LOGIN = 4096
@@ -51,8 +60,8 @@ _PAGE_ID = re.compile(r"[A-Za-z0-9-]{8,64}")
 REPLACED, LOGIN_NEEDED, GOING = 4000, 4001, 4002
 
 
-def create_app(hub: Hub, access: Access, *, folder: Path | None = None) -> FastAPI:
-    """`folder` holds the built page; by default the one in the package or the source tree."""
+def create_app(hub: Hub, access: Access, *, folder: Path | None = None, data: Path | None = None) -> FastAPI:
+    """`folder` holds the built page; by default the one in the package or the source tree. `data` is the console's."""
 
     @contextlib.asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
@@ -71,6 +80,7 @@ def create_app(hub: Hub, access: Access, *, folder: Path | None = None) -> FastA
     _add_api(app, hub)
     add_mission_api(app, hub.missions)
     add_robot_files(app, hub.link)
+    add_rerun(app, hub.link, (data or data_folder()) / "rerun")
     _add_login(app, access)
     _add_sockets(app, hub, access)
     _add_pages(app, hub, folder)
@@ -106,7 +116,7 @@ def _guard(
             response = HTMLResponse(built_page.LOGIN, status_code=401)
         else:
             response = JSONResponse({"error": "log in first"}, status_code=401)
-        response.headers["Content-Security-Policy"] = _scene_policy(request) if scene else PAGE_POLICY
+        response.headers["Content-Security-Policy"] = _policy(request)
         response.headers["X-Content-Type-Options"] = "nosniff"
         response.headers["Referrer-Policy"] = "same-origin"
         return response
@@ -114,7 +124,11 @@ def _guard(
     return guard
 
 
-def _scene_policy(request: Request) -> str:
+def _policy(request: Request) -> str:
+    if request.url.path.startswith("/rerun/"):
+        return RERUN_POLICY
+    if not request.url.path.startswith("/viser/"):
+        return PAGE_POLICY
     host = request.headers.get("host", "")
     return SCENE_POLICY.format(host=f"{host} ws://{host} wss://{host}" if _HOST.fullmatch(host) else "")
 

@@ -26,7 +26,7 @@ def main(arguments: list[str]) -> int:
     try:
         link = Link(ZenohBus(listen=options.listen or ["tcp/127.0.0.1:7447"], connect=options.connect or []))
         database = Database(options.data / "console.sqlite3")
-        app = create_app(Hub(link, database=database, scenes=not options.no_scene), access)
+        app = create_app(Hub(link, database=database, scenes=not options.no_scene), access, data=options.data)
         print(f"Weaver Console: {_address(options.host, listener)}", flush=True)
         asyncio.run(web_server(app).serve(sockets=[listener]))
     finally:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator
+from pathlib import Path
 
 from fastapi import FastAPI, Response
 from fastapi.responses import JSONResponse, StreamingResponse
 
 from weaver_console.link import Link
 from weaver_shared import topics
-from weaver_shared.errors import WeaverError
+from weaver_shared.errors import InputError, WeaverError
 from weaver_shared.messages import PartRequest, RecordingPart
 from weaver_shared.topics import Query
 
@@ -68,6 +69,19 @@ async def _bytes(link: Link, query: PartQuery, robot: str, name: str, first: Rec
         sent += len(data)
         if sent < first.size:
             part = await _part(link, query, robot, name, sent)
+
+
+async def fetch_recording(link: Link, robot: str, name: str, target: Path) -> int:
+    """A whole recording into a file; returns its size. Raises InputError when there is none, else WeaverError."""
+    if link.robot(robot) is None or len(name) > LONGEST_NAME or "/" in name:
+        raise InputError(f"there is no robot {robot!r:.60} with such a file")
+    first = await _part(link, topics.RECORDING_PART, robot, name, 0)
+    if first.reason:
+        raise InputError(first.reason)
+    with target.open("wb") as stream:
+        async for data in _bytes(link, topics.RECORDING_PART, robot, name, first):
+            stream.write(data)
+    return first.size
 
 
 async def _part(link: Link, query: PartQuery, robot: str, name: str, offset: int) -> RecordingPart:

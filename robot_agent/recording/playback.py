@@ -27,6 +27,7 @@ MOST_MARKS = 400
 class Said:
     """One recorded message, with what fills the braces of its topic's key."""
 
+    time_ns: int  # robot's clock as it came
     topic: Topic
     parts: dict[str, str]
     message: Any
@@ -64,7 +65,7 @@ class Playback:
 
     def marks(self) -> tuple[ReplayMark, ...]:
         """The events of the recording, by their times; of very many those that warn and the last others."""
-        events: list[tuple[int, Event]] = [(said_ns, said.message) for said_ns, said in self._timed(topics.EVENT)]
+        events: list[tuple[int, Event]] = [(said.time_ns, said.message) for said in self._of(topics.EVENT)]
         if len(events) > MOST_MARKS:
             events.sort(key=lambda entry: (entry[1].severity is Severity.INFO, -entry[0]))
             events = sorted(events[:MOST_MARKS], key=lambda entry: entry[0])
@@ -76,20 +77,20 @@ class Playback:
         )
 
     def _of(self, topic: Topic) -> Iterator[Said]:
-        return (said for _, said in self._timed(topic))
-
-    def _timed(self, topic: Topic) -> Iterator[tuple[int, Said]]:
         for channel, (kind, parts) in self._channels(lambda key: key == topic.key).items():
             for number in (self._index.channel_of == channel).nonzero()[0]:
                 message = self._decode(self._index.data(int(number)), kind)
-                yield int(self._index.times[number]), Said(topic=kind, parts=parts, message=message)
+                time_ns = int(self._index.times[number])
+                yield Said(time_ns=time_ns, topic=kind, parts=parts, message=message)
 
     def _said(self, numbers: Iterator[int] | range | list[int]) -> Iterator[Said]:
         for number in numbers:
             shown = self._kinds.get(int(self._index.channel_of[number]))
             if shown is not None:
                 topic, parts = shown
-                yield Said(topic=topic, parts=parts, message=self._decode(self._index.data(number), topic))
+                message = self._decode(self._index.data(number), topic)
+                time_ns = int(self._index.times[number])
+                yield Said(time_ns=time_ns, topic=topic, parts=parts, message=message)
 
     def _decode(self, data: bytes, topic: Topic) -> Any:
         try:

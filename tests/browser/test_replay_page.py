@@ -21,6 +21,8 @@ def test_a_recording_is_made_replayed_wound_and_left(
     anna.stand()
     anna.page.wait_for_timeout(1500)
     anna.press("Stop recording")
+    rerun = anna.page.get_by_role("link", name=re.compile("^Open weaver-1_.*mcap in Rerun$"))
+    assert rerun.get_attribute("href").startswith("/rerun/?url=http")
     anna.press(re.compile("^Replay weaver-1_"))
     banner = anna.page.get_by_text("REPLAY of a recording")
     banner.wait_for()

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import shutil
 import socket
+import tempfile
 import threading
 import time
 from collections.abc import Iterator
@@ -94,9 +96,10 @@ class Console:
     def __init__(self, bus: MemoryBus, folder: Path | None, *, password: str = "") -> None:
         self.bus = bus
         self.hub = Hub(Link(bus))
+        self.data = Path(tempfile.mkdtemp(prefix="console-"))
         self._listener = socket.create_server(("127.0.0.1", 0))
         self.port: int = self._listener.getsockname()[1]
-        app = create_app(self.hub, Access(host="127.0.0.1", password=password), folder=folder)
+        app = create_app(self.hub, Access(host="127.0.0.1", password=password), folder=folder, data=self.data)
         self._server = web_server(app)
         self._thread = threading.Thread(target=self._server.run, kwargs={"sockets": [self._listener]})
         self._thread.start()
@@ -115,6 +118,7 @@ class Console:
         self._server.should_exit = True
         self._thread.join()
         self._listener.close()
+        shutil.rmtree(self.data)
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 OURS = {"weaver_shared", "robot_agent", "sim_agent", "weaver_console"}
 EXTRAS = {
     "weaver_shared": [],
-    "robot_agent": ["robot", "study"],
+    "robot_agent": ["robot", "study", "analysis"],
     "sim_agent": ["robot", "sim", "study"],
     "weaver_console": ["console", "analysis"],
 }

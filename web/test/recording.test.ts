@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { addressOf, clockOf, sizeOf, startOf } from "../src/recording/figures";
+import { addressOf, clockOf, rerunViewerOf, sizeOf, startOf } from "../src/recording/figures";
 
 test("a length is told in minutes and seconds, and in hours when it has some", () => {
   expect([0, 7.9, 65, 725, 3723].map(clockOf)).toEqual(["0:00", "0:07", "1:05", "12:05", "1:02:03"]);
@@ -16,4 +16,10 @@ test("a recording began when the robot's own clock says so", () => {
 
 test("a name can not lead out of a robot's recordings", () => {
   expect(addressOf("sim-1", "../../secret")).toBe("/api/recordings/sim-1/..%2F..%2Fsecret");
+});
+
+test("Rerun's viewer is the console's own and is told where the file is", () => {
+  const address = new URL(rerunViewerOf("sim-1", "a.mcap", "http://127.0.0.1:8080"), "http://127.0.0.1:8080");
+  expect(address.host + address.pathname).toBe("127.0.0.1:8080/rerun/");
+  expect(address.searchParams.get("url")).toBe("http://127.0.0.1:8080/api/rerun/sim-1/a.rrd");
 });

@@ -2,7 +2,7 @@
 import { useState } from "react";
 import type { RecordingEntry } from "../protocol/messages";
 import { startReplay } from "../replay/commands";
-import { addressOf, clockOf, sizeOf, startOf } from "./figures";
+import { addressOf, clockOf, rerunFileOf, rerunViewerOf, sizeOf, startOf } from "./figures";
 
 const SHOWN_AT_FIRST = 4;
 
@@ -25,17 +25,34 @@ export function RecordingList({ robot, entries }: { robot: string; entries: read
             </span>
             <span className="number">{clockOf(entry.seconds)}</span>
             <span className="number">{sizeOf(entry.size)}</span>
-            <button
-              type="button"
-              className="link-button"
-              aria-label={`Replay ${entry.name}`}
-              onClick={() => void startReplay(entry.name)}
-            >
-              Replay
-            </button>
-            <a href={addressOf(robot, entry.name)} download={entry.name} aria-label={`Download ${entry.name}`}>
-              Download
-            </a>
+            <span className="recording-actions">
+              <button
+                type="button"
+                className="link-button"
+                aria-label={`Replay ${entry.name}`}
+                onClick={() => void startReplay(entry.name)}
+              >
+                Replay
+              </button>
+              <a
+                href={rerunViewerOf(robot, entry.name, location.origin)}
+                target="_blank"
+                rel="noreferrer"
+                aria-label={`Open ${entry.name} in Rerun`}
+              >
+                Rerun
+              </a>
+              <a
+                href={rerunFileOf(robot, entry.name)}
+                download={entry.name.replace(/\.mcap$/, ".rrd")}
+                aria-label={`Download ${entry.name} as .rrd`}
+              >
+                .rrd
+              </a>
+              <a href={addressOf(robot, entry.name)} download={entry.name} aria-label={`Download ${entry.name}`}>
+                .mcap
+              </a>
+            </span>
           </li>
         ))}
       </ul>

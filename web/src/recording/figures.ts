@@ -21,6 +21,17 @@ export function startOf(iso: string): string {
   return match === null ? iso : `${match[1]} ${match[2]}`;
 }
 
+/** Where the recording is had as a Rerun file. */
+export function rerunFileOf(robot: string, name: string): string {
+  return `/api/rerun/${encodeURIComponent(robot)}/${encodeURIComponent(name.replace(/\.mcap$/, ".rrd"))}`;
+}
+
+/** Rerun's own viewer, served by the console, with the recording in it. */
+export function rerunViewerOf(robot: string, name: string, origin: string): string {
+  const query = new URLSearchParams({ url: `${origin}${rerunFileOf(robot, name)}`, hide_welcome_screen: "true" });
+  return `/rerun/?${query.toString()}`;
+}
+
 /** Where a recording is downloaded from. */
 export function addressOf(robot: string, name: string): string {
   return `/api/recordings/${encodeURIComponent(robot)}/${encodeURIComponent(name)}`;
