@@ -6,6 +6,7 @@ import argparse
 import asyncio
 import logging
 import socket
+import sys
 from pathlib import Path
 
 from weaver_console.access import Access
@@ -17,11 +18,15 @@ from weaver_console.web_server import web_server
 from weaver_shared.bus import ZenohBus
 from weaver_shared.errors import ConfigurationError, ResourceError
 
+SWITCH_INTERVAL = 0.001
+"""s that another thread may keep the interpreter while a page waits to be answered; Python's own is 5 ms."""
+
 
 def main(arguments: list[str]) -> int:
     options = _parser().parse_args(arguments)
     logging.basicConfig(level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s")
     access = Access(host=options.host, password=_password(options.password_file))
+    sys.setswitchinterval(SWITCH_INTERVAL)
     listener = _listen(options.host, options.port)
     try:
         link = Link(ZenohBus(listen=options.listen or ["tcp/127.0.0.1:7447"], connect=options.connect or []))
@@ -68,8 +73,11 @@ def _listen(host: str, port: int) -> socket.socket:
     if not 0 <= port <= 65535:
         raise ConfigurationError(f"port {port} is not valid; use 0 to 65535")
     try:
-        address = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0]
-        listener = socket.socket(address[0], socket.SOCK_STREAM)
+        address = socket.getaddrinfo(
+            host, port, type=socket.SOCK_STREAM, proto=socket.IPPROTO_TCP, flags=socket.AI_PASSIVE
+        )[0]
+        # NOTE: asyncio sends small messages at once only from sockets that name TCP, others 40 ms late.
+        listener = socket.socket(*address[:3])
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind(address[4])
         listener.listen(128)

@@ -5,13 +5,15 @@ The page's sender asks when it is ready, so a slow page skips values and holds u
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from weaver_console.link import Link
 from weaver_console.plain import to_json
 from weaver_console.robot_record import RobotRecord, Value
 from weaver_console.roster import Roster
 
 PERIODS_NS = {
-    "tele/state": 50_000_000,
+    "tele/state": 33_000_000,
     "tele/gait": 100_000_000,
     "tele/locomotion": 200_000_000,
     "tele/adaptation": 100_000_000,
@@ -27,7 +29,9 @@ PERIODS_NS = {
 
 BULK = ("tele/map/", "tele/cam/")
 LARGEST_BATCH = 256 * 1024
-"""Bytes after which further tiles and pictures wait for the next batch; the rest goes before them and always."""
+"""Bytes after which further tiles and pictures wait for the next batch unless less is asked for; the rest goes before
+them and always.
+"""
 
 LINK_PERIOD_NS = 500_000_000
 SLACK_NS = 5_000_000
@@ -41,16 +45,18 @@ class Feed:
         self._roster_version = -1
         self._event_number = 0
         self._generation = 0
-        self._sent: dict[str, int] = {}
+        self._seen = 0
+        self._waiting: dict[str, None] = {}  # keys with something new, those that wait longest first
         self._due_ns: dict[str, int] = {}
         self._link_due_ns = 0
         self.robot: str | None = None
         self.cameras = False
+        self.bulk = 0  # bytes of tiles and pictures in the last batch
 
     def select(self, robot: str | None) -> None:
         record = self._link.robot(robot) if robot is not None else None
         self.robot = robot
-        self._sent, self._due_ns = {}, {}
+        self._seen, self._waiting, self._due_ns = 0, {}, {}
         self._link_due_ns = 0
         self._generation = record.generation if record else 0
 
@@ -60,10 +66,11 @@ class Feed:
         self._event_number = events[-1].number if events else 0
         return to_json({"type": "events", "events": [event.to_page() for event in events]})
 
-    def collect(self) -> list[bytes]:
-        """Encoded messages that are new and due now."""
+    def collect(self, room: int = LARGEST_BATCH) -> list[bytes]:
+        """Encoded messages that are new and due now, with up to `room` bytes (and one more) of tiles and pictures."""
         now_ns = self._link.clock.now_ns()
         messages: list[bytes] = []
+        self.bulk = 0
         if self._roster_version != self._roster.version:
             self._roster_version = self._roster.version
             messages.append(self._roster.json)
@@ -72,42 +79,45 @@ class Feed:
             messages.append(to_json({"type": "event", **event.to_page()}))
         record = self._link.robot(self.robot) if self.robot is not None else None
         if record is not None:
-            messages += self._robot_messages(record, now_ns)
+            messages += self._robot_messages(record, now_ns, room)
         return messages
 
-    def _robot_messages(self, record: RobotRecord, now_ns: int) -> list[bytes]:
+    def _robot_messages(self, record: RobotRecord, now_ns: int, room: int) -> list[bytes]:
         messages = []
         with self._link.lock:
-            generation, values = record.generation, list(record.values.values())
-        if generation != self._generation:
-            self._generation = generation
-            self._sent, self._due_ns = {}, {}
-            messages.append(to_json({"type": "forget", "robot": record.robot_id, "keys": ["*"]}))
-        messages += self._values(record.robot_id, values, now_ns)
+            if record.generation != self._generation:
+                self._generation = record.generation
+                self._seen, self._waiting, self._due_ns = 0, {}, {}
+                messages.append(to_json({"type": "forget", "robot": record.robot_id, "keys": ["*"]}))
+            for value in reversed(record.since(self._seen)):
+                self._waiting.setdefault(value.key)
+                self._seen = value.version
+            values = [record.values[key] for key in self._waiting if self._wanted(key, now_ns)]
+        messages += self._values(record.robot_id, values, now_ns, room)
         if now_ns >= self._link_due_ns:
             self._link_due_ns = now_ns + LINK_PERIOD_NS
             messages.append(to_json(_link_message(record, now_ns)))
         return messages
 
-    def _values(self, robot: str, values: list[Value], now_ns: int) -> list[bytes]:
-        messages, size = [], 0
-        values = [value for value in values if self._wanted(value, now_ns)]
+    def _values(self, robot: str, values: list[Value], now_ns: int, room: int) -> list[bytes]:
+        messages = []
         for value in sorted(values, key=lambda value: value.key.startswith(BULK)):
-            if size > LARGEST_BATCH and value.key.startswith(BULK):
+            bulky = value.key.startswith(BULK)
+            if bulky and self.bulk >= room:
                 break
             message = _value_message(robot, value, now_ns)
-            self._sent[value.key] = value.version
+            del self._waiting[value.key]
             self._due_ns[value.key] = now_ns + _period_ns(value.key)
             messages.append(message)
-            size += len(message)
+            self.bulk += len(message) if bulky else 0
         return messages
 
-    def _wanted(self, value: Value, now_ns: int) -> bool:
-        new = value.version > self._sent.get(value.key, 0)
-        due = now_ns + SLACK_NS >= self._due_ns.get(value.key, 0)
-        return new and due and (self.cameras or not value.key.startswith("tele/cam/"))
+    def _wanted(self, key: str, now_ns: int) -> bool:
+        due = now_ns + SLACK_NS >= self._due_ns.get(key, 0)
+        return due and (self.cameras or not key.startswith("tele/cam/"))
 
 
+@lru_cache(maxsize=4096)
 def _period_ns(key: str) -> int:
     for beginning, period in PERIODS_NS.items():
         if key.startswith(beginning):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import hashlib
 import hmac
 import logging
@@ -25,8 +26,11 @@ from weaver_console.scene.terrain_figure import MeshStore
 logger = logging.getLogger(__name__)
 
 CHECK_PERIOD = 0.1
-SCENE_PERIOD = 0.04
-"""25 Hz for the robot in the 3-D views."""
+SCENE_PERIOD = 0.05
+"""20 Hz for the robot in the 3-D views."""
+
+GROUND = 4
+"""Pictures between new ground: 5 times a second."""
 
 THRIFT = 3
 """Only every third picture for a browser without a graphics card."""
@@ -67,6 +71,14 @@ class Hub:
         return len(self._sessions)
 
     def start(self) -> None:
+        """From the event loop that the pages' sessions run in."""
+        loop = asyncio.get_running_loop()
+
+        def hear(robot_id: str) -> None:
+            with contextlib.suppress(RuntimeError):  # the loop has ended
+                loop.call_soon_threadsafe(self._wake, robot_id)
+
+        self.link.on_news = hear
         self._drawer.start()
 
     async def keep_checking(self) -> None:
@@ -139,6 +151,11 @@ class Hub:
             scene.wish(**session.wishes)
         return scene
 
+    def _wake(self, robot_id: str) -> None:
+        for session in self._sessions.values():
+            if session.robot == robot_id:
+                session.wake()
+
     def _tell(self, page: str, what: str, *arguments: object) -> None:
         session = self._sessions.get(page)
         if session is not None:
@@ -163,7 +180,8 @@ class Hub:
                 if session is None or not scene.watched or (scene.thrifty and tick % THRIFT):
                     continue
                 try:
-                    scene.update(self.link.robot(session.robot) if session.robot is not None else None)
+                    record = self.link.robot(session.robot) if session.robot is not None else None
+                    scene.update(record, ground_due=tick % GROUND == 0)
                 except Exception:
                     if page not in faulty:
                         faulty.add(page)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
+from collections.abc import Callable
 from typing import Any
 
 from weaver_console.event_log import EventLog
@@ -42,6 +43,9 @@ WATCHED: tuple[Topic, ...] = (
 )
 """Topics whose newest values the console keeps; presence, heartbeat and events are handled on their own."""
 
+PROMPT = frozenset({topics.STATE.key, topics.MODE.key, topics.LEASE.key})
+"""Keys of which pages hear at once rather than with their next batch."""
+
 ELSEWHERE = {
     CommandName.START_RECORDING: topics.RECORDER_COMMANDS,
     CommandName.STOP_RECORDING: topics.RECORDER_COMMANDS,
@@ -68,6 +72,8 @@ class Link:
         self.clock = clock or MonotonicClock()
         self.events = events or EventLog()
         self.lock = threading.RLock()
+        self.on_news: Callable[[str], None] = lambda _: None
+        """Called with a robot's id, in any thread, when it has said something of which pages hear at once."""
         self._records: dict[str, RobotRecord] = {}
         self._rates_ns = self.clock.now_ns()
 
@@ -134,6 +140,8 @@ class Link:
     def _receive(self, robot_id: str, key: str, message: Any) -> None:
         with self.lock:
             self._record(robot_id).keep(key, message, self.clock.now_ns())
+        if key in PROMPT:
+            self.on_news(robot_id)
 
     def _receive_presence(self, robot_id: str, key: str, presence: Presence) -> None:
         with self.lock:

@@ -28,7 +28,7 @@ from weaver_shared.messages import CommandName, Waypoint
 
 FOLLOWER = PathFollowerConfig()
 TICK, THRIFTY_TICK = 0.05, 0.2
-"""Seconds between two batches, and where the browser draws without a graphics card."""
+"""Most seconds between two batches, and the least where the browser draws without a graphics card."""
 
 MOST_WAITING = 500
 """Messages beyond which a page that does not read loses the oldest answers."""
@@ -53,6 +53,7 @@ class PageSession:
         self._pace = Pace()
         self._waiting: deque[bytes] = deque(maxlen=MOST_WAITING)
         self._wake = asyncio.Event()
+        self._new = False
         self._loop = asyncio.get_running_loop()
         self._lane = asyncio.Lock()
         self._tasks: set[asyncio.Task[None]] = set()
@@ -65,8 +66,8 @@ class PageSession:
         return self._feed.robot
 
     @property
-    def _tick(self) -> float:
-        return THRIFTY_TICK if self.scene is not None and self.scene.thrifty else TICK
+    def _thrifty(self) -> bool:
+        return self.scene is not None and self.scene.thrifty
 
     def greet(self, *, with_scene: bool) -> None:
         hello: dict[str, object] = {
@@ -85,24 +86,40 @@ class PageSession:
         self._put(self._feed.past_events())
         self.show_legend(legend(self._layer))
 
+    def wake(self) -> None:
+        """The robot has said something that should be seen at once."""
+        if not self._thrifty:
+            self._new = True
+            self._wake.set()
+
     async def send(self, send_text: Callable[[str], Coroutine[Any, Any, None]]) -> None:
         """Send batches until cancelled or until a batch is not taken for 20 s."""
         due = self._loop.time()
         while True:
-            wait = due - self._loop.time()
-            if wait > 0.0 and not self._waiting:
-                self._wake.clear()
-                with_timeout = asyncio.wait_for(self._wake.wait(), wait)
-                await asyncio.gather(with_timeout, return_exceptions=True)
+            await self._until(due)
             messages = [self._waiting.popleft() for _ in range(len(self._waiting))]
-            if self._loop.time() >= due:
+            bulk = 0
+            if self._new or self._loop.time() >= due:
+                self._new = False
                 if self._pace.ready:
-                    messages += self._feed.collect()
-                due = self._loop.time() + self._tick
+                    messages += self._feed.collect(self._pace.room)
+                    bulk = self._feed.bulk
+                due = self._loop.time() + (THRIFTY_TICK if self._thrifty else TICK)
             if messages:
-                text = "[" + ",".join(message.decode() for message in messages) + "]"
-                self._pace.sent()
-                await asyncio.wait_for(send_text(text), SENDING_TIMEOUT)
+                self._pace.sent(self._loop.time(), bulk)
+                async with asyncio.timeout(SENDING_TIMEOUT):
+                    await send_text((b"[" + b",".join(messages) + b"]").decode())
+
+    async def _until(self, due: float) -> None:
+        """Until there is something to send at once, or the next batch is due."""
+        if self._waiting or self._new or self._loop.time() >= due:
+            return
+        self._wake.clear()
+        timer = self._loop.call_at(due, self._wake.set)
+        try:
+            await self._wake.wait()
+        finally:
+            timer.cancel()
 
     def receive(self, data: str | bytes) -> None:
         """Act on one frame from the page; whatever is wrong with it is answered, never raised."""
@@ -155,7 +172,7 @@ class PageSession:
             case p.Ping():
                 self.tell({"type": "pong", "t": message.t})
             case p.Taken():
-                self._pace.taken()
+                self._pace.taken(self._loop.time())
 
     def _select(self, robot: str | None) -> None:
         if robot is not None and self._link.robot(robot) is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import takewhile
 from typing import Any, TypeVar
 
 from weaver_console.plain import plain, to_json
@@ -66,10 +67,15 @@ class RobotRecord:
 
     def keep(self, key: str, message: Any, now_ns: int) -> None:
         self.version += 1
+        self.values.pop(key, None)  # so that they stay in the order of their versions
         self.values[key] = Value(key=key, message=message, received_ns=now_ns, version=self.version)
         self.counts[key] = self.counts.get(key, 0) + 1
         if isinstance(message, MapTile):
             self.ground.put(message)
+
+    def since(self, version: int) -> list[Value]:
+        """Values newer than this version, newest first."""
+        return list(takewhile(lambda value: value.version > version, reversed(self.values.values())))
 
     def beat(self, heartbeat: Heartbeat, now_ns: int) -> bool:
         """Count a heartbeat; True when it is the first of a new session of the robot."""

@@ -98,12 +98,18 @@ class Ground:
         self.tiles: dict[TileIndex, MapTile] = {}
         self.versions: dict[TileIndex, int] = {}
         self.version = 0
+        self._ranges: dict[TileIndex, tuple[int, int]] = {}  # mm, of the tiles in which something is known
 
     def put(self, tile: MapTile) -> None:
         index = (tile.i, tile.j)
         self.version += 1
         self.tiles[index] = tile
         self.versions[index] = self.version
+        known = tile.elevation_mm[tile.elevation_mm != UNKNOWN_MM]
+        if known.size:
+            self._ranges[index] = (int(known.min()), int(known.max()))
+        else:
+            self._ranges.pop(index, None)
 
     def grid(self) -> HeightGrid | None:
         """All tiles as one grid; None before the first. Tiles of another size or cell than the newest are left out."""
@@ -134,11 +140,10 @@ class Ground:
 
     def range(self) -> tuple[float, float] | None:
         """Lowest and highest known height in m."""
-        known = [t.elevation_mm[t.elevation_mm != UNKNOWN_MM] for t in list(self.tiles.values())]
-        known = [k for k in known if k.size]
-        if not known:
+        ranges = list(self._ranges.values())
+        if not ranges:
             return None
-        return min(int(k.min()) for k in known) * 1e-3, max(int(k.max()) for k in known) * 1e-3
+        return min(low for low, _ in ranges) * 1e-3, max(high for _, high in ranges) * 1e-3
 
 
 def elevation_of(tile: MapTile) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,8 @@ Array = NDArray[np.float64]
 
 LAYERS = ("elevation", "roughness", "step_height", "age")
 UNKNOWN_COLOUR = "#3a3f46"
+SHADES = 1024
+"""Colours told apart on a scale: more than a screen does."""
 
 _VIRIDIS = (
     "#440154",
@@ -43,12 +46,12 @@ class Legend:
 
     def colours(self, values: Array) -> NDArray[np.uint8]:
         """sRGB of values (...), (..., 3); NaN is the colour of the unknown."""
-        places = np.array([stop for stop, _ in self.stops])
-        table = np.array([_rgb(colour) for _, colour in self.stops], dtype=np.float64)
-        flat = np.where(np.isfinite(values), values, places[0])
-        mixed = np.stack([np.interp(flat, places, table[:, channel]) for channel in range(3)], axis=-1)
-        mixed = np.where(np.isfinite(values)[..., None], mixed, _rgb(UNKNOWN_COLOUR))
-        return np.rint(mixed).astype(np.uint8)
+        low, high = self.stops[0][0], self.stops[-1][0]
+        share = np.clip((values - low) / (high - low), 0.0, 1.0)
+        known = np.isfinite(share)
+        shade = np.where(known, np.rint((SHADES - 1) * np.where(known, share, 0.0)), SHADES).astype(int)
+        colours: NDArray[np.uint8] = _table(self.stops)[shade]
+        return colours
 
     def to_page(self) -> dict[str, object]:
         stops = [[round(value, 4), colour] for value, colour in self.stops]
@@ -60,6 +63,16 @@ class Legend:
             "stops": stops,
             "unknown": UNKNOWN_COLOUR,
         }
+
+
+@lru_cache(maxsize=64)
+def _table(stops: tuple[tuple[float, str], ...]) -> NDArray[np.uint8]:
+    """Colours in `SHADES` equal steps from the first stop to the last, and that of the unknown, (SHADES + 1, 3)."""
+    places = np.linspace(stops[0][0], stops[-1][0], SHADES)
+    colours = np.array([_rgb(colour) for _, colour in stops], dtype=np.float64)
+    mixed = [np.interp(places, [stop for stop, _ in stops], colours[:, channel]) for channel in range(3)]
+    table = np.concatenate([np.stack(mixed, axis=-1), [_rgb(UNKNOWN_COLOUR)]])
+    return np.asarray(np.rint(table), dtype=np.uint8)
 
 
 def legend(layer: str, elevation_range: tuple[float, float] | None = None) -> Legend:

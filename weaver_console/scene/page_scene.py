@@ -113,8 +113,15 @@ class PageScene:
         with contextlib.redirect_stdout(io.StringIO()):
             self._server.stop()
 
-    def update(self, record: RobotRecord | None) -> None:
-        """Draw what is new of the selected robot; called some 25 times a second, by one thread."""
+    def update(self, record: RobotRecord | None, *, ground_due: bool = True) -> None:
+        """Draw what is new of the selected robot; called some 20 times a second, by one thread.
+
+        New ground is drawn only when it is due: for all pages in the same call, since they share its meshes.
+        """
+        with self._server.atomic():
+            self._update(record, ground_due)
+
+    def _update(self, record: RobotRecord | None, ground_due: bool) -> None:
         if record is None:
             self._drop()
             return
@@ -123,11 +130,11 @@ class PageScene:
             wishes = self._wishes
         self._ground = record.ground
         self._updates += 1
-        hurried = wishes.layer != shown.terrain.legend.layer or not self.thrifty
-        if (hurried or self._updates % THRIFTY_TERRAIN == 0) and shown.terrain.update(record.ground, wishes.layer):
+        hurried = wishes.layer != shown.terrain.legend.layer or (shown.terrain.unfinished and not self.thrifty)
+        due = self._updates % THRIFTY_TERRAIN == 0 if self.thrifty else ground_due
+        if (hurried or due) and shown.terrain.update(record.ground, wishes.layer):
             self._on_legend(shown.terrain.legend)
-        with self._server.atomic():
-            self._update_robot(shown, record, wishes)
+        self._update_robot(shown, record, wishes)
         state = record.newest("tele/state", RobotState)
         mission = record.mission
         shown.mission.update(

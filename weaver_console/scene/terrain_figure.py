@@ -39,8 +39,13 @@ class TerrainFigure:
         self._shown: dict[TileIndex, tuple[object, ...]] = {}
         self._ground_version = -1
         self._ground: Ground | None = None
-        self._unfinished = False
+        self._left: list[TileIndex] = []
         self.legend = legend("elevation")
+
+    @property
+    def unfinished(self) -> bool:
+        """Whether not all that had changed has been drawn."""
+        return bool(self._left)
 
     def update(self, ground: Ground, layer: str) -> bool:
         """Bring the tiles up to date; True when the colour scale has changed with it."""
@@ -48,7 +53,7 @@ class TerrainFigure:
             self.clear()
             self._ground = ground
         changed = self._rescale(ground, layer)
-        if changed or self._unfinished or ground.version != self._ground_version:
+        if changed or self.unfinished or ground.version != self._ground_version:
             self._ground_version = ground.version
             self._draw(ground)
         return changed
@@ -56,7 +61,7 @@ class TerrainFigure:
     def clear(self) -> None:
         for node in self._nodes.values():
             node.remove()
-        self._nodes, self._shown, self._ground_version = {}, {}, -1
+        self._nodes, self._shown, self._left, self._ground_version = {}, {}, [], -1
 
     def _rescale(self, ground: Ground, layer: str) -> bool:
         if layer == self.legend.layer and (layer != "elevation" or ground.version == self._ground_version):
@@ -68,18 +73,16 @@ class TerrainFigure:
         return True
 
     def _draw(self, ground: Ground) -> None:
-        left = TILES_AN_UPDATE
-        self._unfinished = False
-        for index in list(ground.tiles):
-            content = (self.legend, _content(ground, index))
-            if self._shown.get(index) == content:
-                continue
-            if left == 0:
-                self._unfinished = True
-                return
-            left -= 1
-            self._shown[index] = content
+        """What had changed is drawn before what changes meanwhile, or a busy map would never be finished."""
+        if not self._left:
+            self._left = [index for index in list(ground.tiles) if self._shown.get(index) != self._seen(ground, index)]
+        now, self._left = self._left[:TILES_AN_UPDATE], self._left[TILES_AN_UPDATE:]
+        for index in now:
+            self._shown[index] = self._seen(ground, index)
             self._replace(index, self._store.mesh(ground, index, self.legend))
+
+    def _seen(self, ground: Ground, index: TileIndex) -> tuple[object, ...]:
+        return self.legend, _content(ground, index)
 
     def _replace(self, index: TileIndex, mesh: bytes | None) -> None:
         node = self._nodes.get(index)

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import json
 import struct
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +22,8 @@ from weaver_shared.messages import MapTile
 SIGMA_SHOWN_MM = 60.0
 """Standard deviation at which a cell has lost half of its colour to grey."""
 
+_UNKNOWN = {"elevation_mm": UNKNOWN_MM, "sigma_mm": 255, "roughness": 255, "step_height": 255, "age_s": 255}
+
 _GREY = np.array([128.0, 132.0, 138.0])
 _SRGB = np.arange(256) / 255.0
 _LINEAR = np.rint(255.0 * np.where(_SRGB <= 0.04045, _SRGB / 12.92, ((_SRGB + 0.055) / 1.055) ** 2.4)).astype(np.uint8)
@@ -29,28 +33,30 @@ _LINEAR = np.rint(255.0 * np.where(_SRGB <= 0.04045, _SRGB / 12.92, ((_SRGB + 0.
 def tile_mesh(ground: Ground, index: TileIndex, legend: Legend) -> bytes | None:
     """GLB of one tile in world coordinates, joined to the neighbours in +x and +y; None if nothing in it is known."""
     tile = ground.tiles[index]
-    elevation_mm, colours = _with_neighbours(ground, tile, legend)
-    faces = _faces(elevation_mm != UNKNOWN_MM)
+    joined = _with_neighbours(ground, tile)
+    faces = _faces(joined.elevation_mm != UNKNOWN_MM)
     if not faces.size:
         return None
     origin = ((tile.i * tile.size + 0.5) * tile.cell, (tile.j * tile.size + 0.5) * tile.cell)
-    return height_field_glb(elevation_mm, colours, faces, origin=origin, cell=tile.cell)
+    return height_field_glb(joined.elevation_mm, _shaded(joined, legend), faces, origin=origin, cell=tile.cell)
 
 
-def _with_neighbours(ground: Ground, tile: MapTile, legend: Legend) -> tuple[NDArray[np.int16], NDArray[np.uint8]]:
-    """Heights (size + 1, size + 1) and colours (.., 3), the last row and column from the next tiles."""
+def _with_neighbours(ground: Ground, tile: MapTile) -> MapTile:
+    """The tile with one row and one column more (size + 1, size + 1), taken from the next tiles."""
     size = tile.size
-    elevation_mm = np.full((size + 1, size + 1), UNKNOWN_MM, dtype=np.int16)
-    colours = np.zeros((size + 1, size + 1, 3), dtype=np.uint8)
+    joined: dict[str, Any] = {
+        name: np.full((size + 1, size + 1), unknown, dtype=getattr(tile, name).dtype)
+        for name, unknown in _UNKNOWN.items()
+    }
     for di, dj in ((0, 0), (1, 0), (0, 1), (1, 1)):
         part = ground.tiles.get((tile.i + di, tile.j + dj))
         if part is None or part.size != size or part.cell != tile.cell:
             continue
         to = (slice(size, None) if di else slice(0, size), slice(size, None) if dj else slice(0, size))
         take = (slice(0, 1) if di else slice(None), slice(0, 1) if dj else slice(None))
-        elevation_mm[to] = part.elevation_mm[take]
-        colours[to] = _shaded(part, legend)[take]
-    return elevation_mm, colours
+        for name, layer in joined.items():
+            layer[to] = getattr(part, name)[take]
+    return replace(tile, size=size + 1, **joined)
 
 
 def _shaded(tile: MapTile, legend: Legend) -> NDArray[np.uint8]:
