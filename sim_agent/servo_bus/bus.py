@@ -92,10 +92,10 @@ class EmulatedBus:
             case Instruction.FAST_SYNC_READ | Instruction.FAST_BULK_READ:
                 self._answer_as_one(hearing, _asked(frame))
             case Instruction.SYNC_WRITE | Instruction.BULK_WRITE:
+                called = _by_id(hearing)
                 for identity, address, data in _told(frame):
-                    for servo in hearing:
-                        if servo.id == identity:
-                            servo.write(address, data)
+                    for servo in called.get(identity, ()):
+                        servo.write(address, data)
             case _:
                 for servo in hearing:
                     if frame.id in (servo.id, BROADCAST):
@@ -143,8 +143,9 @@ class EmulatedBus:
             self._send(servo, encode_status(servo.id, servo.error(fault)))
 
     def _answer_in_turn(self, hearing: list[EmulatedServo], asked: list[tuple[int, int, int]]) -> None:
+        called = _by_id(hearing)
         for identity, address, length in asked:
-            answering = [servo for servo in hearing if servo.id == identity and servo.answers(reading=True)]
+            answering = [servo for servo in called.get(identity, ()) if servo.answers(reading=True)]
             if not answering:
                 if self.troubles.chain_breaks:
                     return
@@ -180,6 +181,14 @@ class EmulatedBus:
             place = self._random.randrange(len(message))
             message = message[:place] + bytes([message[place] ^ self._random.randrange(1, 256)]) + message[place + 1 :]
         self._replies.append(Reply(self._line_free_ns + self._latency_ns, message))
+
+
+def _by_id(servos: list[EmulatedServo]) -> dict[int, list[EmulatedServo]]:
+    """Several may have one id by mistake."""
+    found: dict[int, list[EmulatedServo]] = {}
+    for servo in servos:
+        found.setdefault(servo.id, []).append(servo)
+    return found
 
 
 def _asked(frame: Frame) -> list[tuple[int, int, int]]:

@@ -2,18 +2,39 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from struct import Struct
+
 from robot_agent.hardware.servos import registers as r
 from robot_agent.hardware.servos.packet import Fault
 from robot_agent.hardware.servos.registers import REGISTERS, Model, Register
 
 GOALS = (r.GOAL_PWM, r.GOAL_CURRENT, r.GOAL_VELOCITY, r.GOAL_POSITION)
 POSITION_MODE = 3
+_SIGNED_READINGS = frozenset(
+    {r.PRESENT_PWM, r.PRESENT_CURRENT, r.PRESENT_VELOCITY, r.PRESENT_POSITION, r.VELOCITY_TRAJECTORY}
+)
+_FORMATS = {
+    register: Struct("<" + ("bhi" if register.signed or register in _SIGNED_READINGS else "BHI")[register.size // 2])
+    for register in REGISTERS
+}
 _BEGINS = {register.address: register for register in REGISTERS}
 _COVERED = {register.address + byte for register in REGISTERS for byte in range(register.size)}
 _BANKS = (
     (r.INDIRECT_ADDRESSES, r.INDIRECT_DATA),
     (r.INDIRECT_ADDRESSES_2, r.INDIRECT_DATA_2),
 )
+
+
+@dataclass(frozen=True, slots=True)
+class _Plan:
+    """What a write of so many bytes to an address touches: the same as long as indirect addresses stay."""
+
+    cells: list[int]
+    registers: list[Register]
+    places: list[list[int]]  # of each register's bytes among those written
+    points: bool  # it sets indirect addresses
+    fault: Fault  # of its shape, whatever the values
 
 
 class ControlTable:
@@ -24,18 +45,17 @@ class ControlTable:
         self._firmware = firmware
         self._bytes = bytearray(r.END)
         self._meant = list(range(r.END))
+        self._plans: dict[tuple[int, int], _Plan] = {}
         self.factory_reset()
         self[r.ID] = servo
 
     def __getitem__(self, register: Register) -> int:
-        raw = self._bytes[register.address : register.address + register.size]
-        return int.from_bytes(raw, "little", signed=register.signed or register in _SIGNED_READINGS)
+        value: int = _FORMATS[register].unpack_from(self._bytes, register.address)[0]
+        return value
 
     def __setitem__(self, register: Register, value: int) -> None:
         """Set from inside the servo: no rule applies."""
-        signed = value < 0
-        raw = value.to_bytes(register.size, "little", signed=signed)
-        self._bytes[register.address : register.address + register.size] = raw
+        _FORMATS[register].pack_into(self._bytes, register.address, value)
 
     def factory_reset(self) -> None:
         for register in REGISTERS:
@@ -80,25 +100,21 @@ class ControlTable:
         """Write all of it or nothing; returns the registers that were written."""
         if not data or address + len(data) > r.END:
             return Fault.ACCESS, []
-        cells = {self._meant[address + index]: value for index, value in enumerate(data)}
-        if all(_is_indirect_address(cell) for cell in cells):
-            self._store(cells)
+        plan = self._plans.get((address, len(data)))
+        if plan is None:
+            plan = self._plans[address, len(data)] = _plan(self._meant[address : address + len(data)])
+        if plan.points:
+            self._store(plan, data)
             self._point()
             return Fault.NONE, []
-        written = [_BEGINS[cell] for cell in sorted(cells) if cell in _BEGINS]
-        fault = self._fault_of_write(cells, written)
+        fault = plan.fault or self._fault_of_values(plan, data)
         if fault is Fault.NONE:
-            self._store(cells)
-        return fault, written
+            self._store(plan, data)
+        return fault, plan.registers
 
-    def _fault_of_write(self, cells: dict[int, int], written: list[Register]) -> Fault:
-        whole = {register.address + byte for register in written for byte in range(register.size)}
-        if any(cell not in _COVERED for cell in cells):
-            return Fault.ACCESS
-        if whole != set(cells):
-            return Fault.DATA_LENGTH
-        for register in written:
-            raw = bytes(cells[register.address + byte] for byte in range(register.size))
+    def _fault_of_values(self, plan: _Plan, data: bytes) -> Fault:
+        for register, places in zip(plan.registers, plan.places, strict=True):
+            raw = bytes([data[place] for place in places])
             fault = self._fault_of_value(register, int.from_bytes(raw, "little", signed=register.signed))
             if fault is not Fault.NONE:
                 return fault
@@ -129,12 +145,13 @@ class ControlTable:
         highest = self.model.current_limit if register is r.CURRENT_LIMIT else register.highest
         return register.lowest or 0, highest or 0
 
-    def _store(self, cells: dict[int, int]) -> None:
-        for cell, value in cells.items():
+    def _store(self, plan: _Plan, data: bytes) -> None:
+        for cell, value in zip(plan.cells, data, strict=True):
             self._bytes[cell] = value
 
     def _point(self) -> None:
         """Find the byte that each indirect one stands for: itself when it points at no direct one."""
+        self._plans.clear()
         for addresses, data in _BANKS:
             for index in range(r.INDIRECT_COUNT):
                 at = addresses + 2 * index
@@ -142,9 +159,18 @@ class ControlTable:
                 self._meant[data + index] = target if target < r.INDIRECT_ADDRESSES else data + index
 
 
-_SIGNED_READINGS = frozenset(
-    {r.PRESENT_PWM, r.PRESENT_CURRENT, r.PRESENT_VELOCITY, r.PRESENT_POSITION, r.VELOCITY_TRAJECTORY}
-)
+def _plan(cells: list[int]) -> _Plan:
+    registers = [_BEGINS[cell] for cell in sorted(set(cells)) if cell in _BEGINS]
+    whole = [[register.address + byte for byte in range(register.size)] for register in registers]
+    fault = Fault.NONE
+    if any(cell not in _COVERED for cell in cells):
+        fault = Fault.ACCESS
+    elif {cell for register in whole for cell in register} != set(cells):
+        fault = Fault.DATA_LENGTH
+    # Of a cell that is written twice the last value stays.
+    last = {cell: place for place, cell in enumerate(cells)}
+    places = [[last[cell] for cell in register] for register in whole] if fault is Fault.NONE else []
+    return _Plan(cells, registers, places, all(_is_indirect_address(cell) for cell in cells), fault)
 
 
 def _is_indirect_address(cell: int) -> bool:

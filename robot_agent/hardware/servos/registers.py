@@ -22,8 +22,10 @@ LEAST_FIRMWARE = 42
 """Below 39 the servo speaks Protocol 1.0, below 38 it has no bus watchdog, below 42 no clear instruction."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Register:
+    """One entry of the control table; there is one object for each, so they are told apart by identity."""
+
     address: int
     size: int
     writable: bool = False
