@@ -1,28 +1,36 @@
-"""A simulated robot that is only reached through its servos' bytes: the hardware code as it is, in lock step.
+"""A simulated robot that is only reached through its devices' bytes: the hardware code as it is, in lock step.
 
-The bus's clock and the simulator's tell the same time: both begin at 0, and a tick of the one is a tick of the other.
+Every byte goes through a pseudo-terminal of its device, opened and locked by the driver. The bus's clock and the
+simulator's tell the same time: both begin at 0, and a tick of the one is a tick of the other.
 """
 
 from __future__ import annotations
 
+import sys
+import tempfile
+from contextlib import ExitStack, closing
 from pathlib import Path
 
-from robot_agent.body import JointTargets
+from robot_agent.body import JointTargets, Trouble
+from robot_agent.hardware.hardware_body import HardwareBody
 from robot_agent.hardware.imu.stream import gx5_imu
-from robot_agent.hardware.power_monitor import PowerMonitor
+from robot_agent.hardware.power_monitor import BAUD, PowerMonitor
 from robot_agent.hardware.wiring import Wiring
 from sim_agent.body import TICK_NS, SimulatedBody
 from sim_agent.sensor_lines import EmulatedGx5, TwinSensors
 from sim_agent.servo_bus.body_joints import BodyJoints
+from sim_agent.servo_bus.stepped_port import SteppedLine, SteppedPort
+from sim_agent.servo_bus.stepped_terminal import SteppedTerminal
 from sim_agent.servo_bus.twin import KIND, TwinServos
 from sim_agent.servo_bus.twin_wiring import twin_wiring
-from sim_agent.servo_bus.virtual_port import VirtualLineClock
+from sim_agent.servo_bus.wire import VirtualLineClock
 from sim_agent.worlds import World
 from weaver_shared.messages import Proprioception, SceneState, TruthState
 from weaver_shared.robots import RobotDescription
 
-NOWHERE = Path("/nowhere")
-"""Ports of function calls have no place in the file system."""
+SWITCH_INTERVAL = 2e-4
+"""s. Each system call lets another thread have the interpreter, which by default keeps it for 5 ms: with vision at
+work beside, a tick's twenty calls would take ten times as long as the tick."""
 
 
 class TwinBody:
@@ -33,15 +41,30 @@ class TwinBody:
     def __init__(self, robot: RobotDescription, world: World, seed: int) -> None:
         self.robot = robot
         self._simulated = SimulatedBody(robot, world, seed)
-        wiring = Wiring(twin_wiring(robot, NOWHERE), robot)
-        sensors = TwinSensors(EmulatedGx5())
+        self._terminals = ExitStack()
+        self._terminals.callback(sys.setswitchinterval, sys.getswitchinterval())
+        sys.setswitchinterval(SWITCH_INTERVAL)
+        folder = Path(self._terminals.enter_context(tempfile.TemporaryDirectory(prefix="weaver-twin-")))
+        wiring = Wiring(twin_wiring(robot, folder), robot)
+        sensors = TwinSensors(
+            EmulatedGx5(), lambda name, device: SteppedLine(device, self._terminal(folder / name), BAUD)
+        )
         servos = TwinServos(
             wiring, lambda servos: BodyJoints(servos, self._simulated, wiring, heard=sensors.hear), seed=seed
         )
         clock = VirtualLineClock()
         servos.joints.advance(clock.now_ns())
-        imu = gx5_imu(sensors.imu_line, round(robot.imu.rate))
-        self._body, _ = servos.in_process(clock, imu=imu, power=PowerMonitor(sensors.power_line))
+        self._body = HardwareBody(
+            wiring,
+            {
+                bus.name: SteppedPort(servos.buses[bus.name], self._terminal(Path(bus.port)), bus.baud, clock)
+                for bus in wiring.config.buses
+            },
+            clock,
+            kind=KIND,
+            imu=gx5_imu(sensors.imu_line, round(robot.imu.rate)),
+            power=PowerMonitor(sensors.power_line),
+        )
         self._body.prepare()
         # To make servos ready took its time on the bus: control begins with the simulator's next tick but one.
         clock.sleep_until((clock.now_ns() // TICK_NS + 2) * TICK_NS)
@@ -60,6 +83,13 @@ class TwinBody:
         """What is wrong with servos and buses, one sentence each."""
         return list(self._body.troubles())
 
+    def findings(self) -> list[Trouble]:
+        return self._body.findings()
+
+    @property
+    def holding(self) -> bool:
+        return self._body.holding
+
     def truth(self) -> TruthState:
         return self._simulated.truth()
 
@@ -71,4 +101,8 @@ class TwinBody:
 
     def close(self) -> None:
         self._body.close()
+        self._terminals.close()
         self._simulated.close()
+
+    def _terminal(self, link: Path) -> SteppedTerminal:
+        return self._terminals.enter_context(closing(SteppedTerminal(link)))

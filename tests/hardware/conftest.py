@@ -21,7 +21,7 @@ from sim_agent.servo_bus.body_joints import BodyJoints
 from sim_agent.servo_bus.joints import FirstOrderJoints
 from sim_agent.servo_bus.twin import KIND, TwinServos, TwinTerminals
 from sim_agent.servo_bus.twin_wiring import twin_wiring
-from sim_agent.servo_bus.virtual_port import VirtualLineClock
+from sim_agent.servo_bus.wire import VirtualLineClock
 from sim_agent.worlds import make_world
 from weaver_shared.config.hardware import ServoSettings
 from weaver_shared.robots import RobotDescription, load_robot

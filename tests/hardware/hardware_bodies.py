@@ -11,7 +11,8 @@ from robot_agent.hardware.hardware_body import HardwareBody
 from robot_agent.hardware.wiring import Wiring
 from sim_agent.sensor_lines import TwinSensors
 from sim_agent.servo_bus.twin import TwinServos
-from sim_agent.servo_bus.virtual_port import VirtualLineClock, VirtualPort
+from sim_agent.servo_bus.virtual_port import VirtualPort
+from sim_agent.servo_bus.wire import VirtualLineClock
 from weaver_shared.config.hardware import ServoSettings
 
 STAND = 0.4  # m above the ground

@@ -21,7 +21,8 @@ from sim_agent.servo_bus import EmulatedServo
 from sim_agent.servo_bus.joints import FirstOrderJoints
 from sim_agent.servo_bus.twin import TwinServos, TwinTerminals
 from sim_agent.servo_bus.twin_wiring import twin_wiring, wiring_file
-from sim_agent.servo_bus.virtual_port import VirtualLineClock, VirtualPort
+from sim_agent.servo_bus.virtual_port import VirtualPort
+from sim_agent.servo_bus.wire import VirtualLineClock
 from sim_agent.still_lines import StillImuLine, StillPowerLine
 from weaver_shared.config.hardware import ImuLine, ServoSettings
 from weaver_shared.errors import ConfigurationError, ResourceError
