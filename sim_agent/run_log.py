@@ -28,7 +28,7 @@ class RunLog:
     _digest: Any = field(default_factory=hashlib.sha256)
     _rows: list[tuple[float, ...]] = field(default_factory=list)
     _ordered: Array | None = None
-    _tracking: list[float] = field(default_factory=list)
+    _tracking: list[Array] = field(default_factory=list)
     _estimated: list[tuple[float, ...]] = field(default_factory=list)
 
     def add(self, moment: Moment) -> None:
@@ -36,7 +36,7 @@ class RunLog:
         for array in (sensed.joint_position, sensed.joint_torque, walk.targets.position, walk.velocity_command):
             self._digest.update(np.ascontiguousarray(array).tobytes())
         if self._ordered is not None:
-            self._tracking.append(float(np.mean((sensed.joint_position - self._ordered) ** 2)))
+            self._tracking.append((sensed.joint_position - self._ordered) ** 2)
         self._ordered = walk.targets.position.copy() if walk.targets.torque_on else None
         if moment.vision is not None:
             odometry = moment.vision.odometry
@@ -65,11 +65,13 @@ class RunLog:
         if rows.size == 0:
             return {}
         energy = self._energy(rows)
+        tracking = np.array(self._tracking) if self._tracking else np.full((1, 1), np.nan)
         return {
             "distance": path_length(rows[:, 1:3]),
             "duration": float(rows[-1, 0] - rows[0, 0]),
             "cost_of_transport": {"total": energy.total, "motors": energy.motors},
-            "joint_tracking_rms_deg": float(np.degrees(np.sqrt(np.mean(self._tracking or [np.nan])))),
+            "joint_tracking_rms_deg": float(np.degrees(np.sqrt(np.mean(tracking)))),
+            "joint_tracking_deg": np.degrees(np.sqrt(np.mean(tracking, axis=0))).tolist(),
             "segments": self._segments(rows),
             "odometry": self._odometry(rows),
         }

@@ -12,6 +12,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from tqdm import tqdm
 
 from robot_agent.adaptation import safe_gait
@@ -64,7 +65,10 @@ def walk(options: argparse.Namespace, *, tell_truth: bool = True) -> dict[str, A
         run.close()
     simulated = run.clock.now_ns() * 1e-9
     wall = time.monotonic() - started
-    return {"reached": reached, "digest": log.digest, "real_time_factor": simulated / wall, **log.figures()}
+    figures = log.figures()
+    if options.against:
+        figures["joint_tracking_difference_rms_deg"] = _difference(figures, Path(options.against))
+    return {"reached": reached, "digest": log.digest, "real_time_factor": simulated / wall, **figures}
 
 
 class _Recording:
@@ -122,6 +126,16 @@ def _save(run: LockStep, path: Path) -> None:
         save_map(path, terrain_map.snapshot())
 
 
+def _difference(figures: dict[str, Any], earlier: Path) -> float:
+    """How differently each joint followed its orders in another walk: rms over the joints, degrees."""
+    try:
+        other = json.loads(earlier.read_text())["joint_tracking_deg"]
+        apart = np.subtract(figures.get("joint_tracking_deg", np.nan), other)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(f"{earlier} is not the JSON of a walk of this robot: {error}") from error
+    return float(np.sqrt(np.mean(np.square(apart))))
+
+
 def _goal(text: str) -> Waypoint:
     try:
         x, y = (float(part) for part in text.split(","))
@@ -156,5 +170,10 @@ def parser() -> argparse.ArgumentParser:
     result.add_argument("--known-map", metavar="FILE", help="begin with a saved map of this place")
     result.add_argument("--record", metavar="FILE", help="record messages and pictures, .mcap; see `weaver odometry`")
     result.add_argument("--timeout", type=float, default=600.0, help="simulated seconds before giving up")
+    result.add_argument(
+        "--against",
+        metavar="FILE",
+        help="JSON of another walk, such as one of --robot sim: how differently the joints followed, degrees rms",
+    )
     result.add_argument("--json", action="store_true", help="print one JSON object")
     return result
