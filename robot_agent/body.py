@@ -1,12 +1,13 @@
 """The two things a robot is made of, whether simulated, emulated or real."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from weaver_shared.messages import Proprioception, StereoFrame
+from weaver_shared.messages import Proprioception, SafetyAction, StereoFrame
 from weaver_shared.robots import RobotDescription
 
 
@@ -18,6 +19,14 @@ class JointTargets:
     position: NDArray[np.float64]  # (joints,) rad
     torque_limit: NDArray[np.float64]  # (joints,) N m, caps the servo's current
     torque_on: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trouble:
+    """Something that a body knows to be wrong with itself, and what it asks of safety; ALLOW: only said."""
+
+    text: str
+    action: SafetyAction
 
 
 class Body(Protocol):
@@ -35,6 +44,15 @@ class Body(Protocol):
         ...
 
     def write(self, targets: JointTargets) -> None: ...
+
+    def findings(self) -> Sequence[Trouble]:
+        """What is wrong with it now."""
+        ...
+
+    @property
+    def holding(self) -> bool:
+        """Whether its servos bear it with torque, as those of a robot whose program has died do."""
+        ...
 
     def close(self) -> None: ...
 

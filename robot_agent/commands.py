@@ -138,7 +138,7 @@ class CommandDesk:
             self._survey = survey
             now = self._now_ns()
             if command.command is CommandName.STOP:
-                reply = self._stop(command)
+                reply = self._stop(command.name)
             elif command.command is CommandName.TAKE_CONTROL:
                 reply = self._take_control(command, now)
             elif refusal := self._authority.refusal(command, now):
@@ -248,6 +248,12 @@ class CommandDesk:
             self._footholds.clear()
             self._mission.pause()
 
+    def stop_by_itself(self) -> None:
+        """Latch the stop that cuts: the body has no torque any more, and is not to have it again unasked."""
+        with self._lock:
+            if self._stop_level != "cut":
+                self._stop("cut")
+
     def lease(self) -> LeaseState:
         with self._lock:
             left = self._authority.seconds_left(self._now_ns())
@@ -337,8 +343,8 @@ class CommandDesk:
         self._mission.pause()
         return self._accept()
 
-    def _stop(self, command: Command) -> Answer:
-        cut = command.name == "cut" or self._stop_level == "cut"
+    def _stop(self, level: str) -> Answer:
+        cut = level == "cut" or self._stop_level == "cut"
         self._stop_level = "cut" if cut else "settle"
         self._stand = False
         self._teleop = None

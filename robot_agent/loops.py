@@ -5,12 +5,12 @@ from __future__ import annotations
 import logging
 import secrets
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from robot_agent.adaptation import ParameterOverrides
-from robot_agent.body import Body, JointTargets
+from robot_agent.body import Body, JointTargets, Trouble
 from robot_agent.commands import CommandDesk, Situation
 from robot_agent.cover_watch import CoverWatch
 from robot_agent.felt_queue import Felt, FeltQueue
@@ -62,10 +62,13 @@ class WalkLoop:
         robot = body.robot
         overrides = ParameterOverrides(body.robot.adaptation)
         self.desk = CommandDesk(robot=robot, overrides=overrides, wall_clock_ns=wall_clock_ns)
-        self._pipeline = WalkPipeline(robot, overrides, dt=1.0 / CONTROL_RATE)
+        self._pipeline = WalkPipeline(robot, overrides, dt=1.0 / CONTROL_RATE, holding=body.holding)
         self._odometry: LatestSlot[OdometryEstimate] = LatestSlot()
         self._report: LatestSlot[AdaptationReport] = LatestSlot()
         self._route: LatestSlot[RoutePlan] = LatestSlot()
+        if body.holding:
+            # A program that died left it on its feet: there it stays, and nobody need be there yet.
+            self.desk.stand_unattended()
         presence = Presence(
             robot_id=robot_id,
             session=secrets.token_hex(4),
@@ -79,6 +82,7 @@ class WalkLoop:
         self._headway = Headway()
         self._mission_serial = 0
         self._last_estimate: OdometryEstimate | None = None
+        self._told: set[str] = set()
         self._ticks = 0
         bus.subscribe(robot_id, topics.ODOMETRY, lambda _id, _key, message: self._odometry.put(message))
         bus.subscribe(robot_id, topics.DESIRED_GAIT, lambda _id, _key, message: self._report.put(message))
@@ -111,7 +115,18 @@ class WalkLoop:
             self._pipeline.take_route(route)
         orders = self.desk.orders()
         self._mission_serial = orders.mission_serial
-        return self._pipeline.step(sensed, orders)
+        troubles = self._body.findings()
+        self._tell(troubles)
+        return self._pipeline.step(sensed, orders, troubles)
+
+    def _tell(self, troubles: Sequence[Trouble]) -> None:
+        """New troubles of the body as events; what leaves it without torque stops it until somebody releases it."""
+        for trouble in troubles:
+            if trouble.text not in self._told:
+                self.desk.note(Severity.WARNING, trouble.text)
+            if trouble.action is SafetyAction.CUT:
+                self.desk.stop_by_itself()
+        self._told = {trouble.text for trouble in troubles}
 
     def _after(self, tick: WalkTick, sensed: Proprioception) -> None:
         if tick.follower is not None:

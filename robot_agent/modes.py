@@ -23,8 +23,8 @@ class Permission:
 class ModeMachine:
     """Combines the operator's orders with the verdict of safety and the posture the walker has reached."""
 
-    def __init__(self) -> None:
-        self._torque_on = False
+    def __init__(self, *, torque_on: bool = False) -> None:
+        self._torque_on = torque_on
         self._fallen = False
 
     def step(self, orders: Orders, verdict: Verdict, posture: str) -> Permission:

@@ -6,13 +6,14 @@ walk loop     joints, IMU   -> state    -> navigation -> locomotion -> joint tar
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.adaptation import AdaptationController, ParameterOverrides
-from robot_agent.body import JointTargets
+from robot_agent.body import JointTargets, Trouble
 from robot_agent.limits import JointGate
 from robot_agent.locomotion import Postures, WalkInput, WalkOutput
 from robot_agent.locomotion.footholds import orders_in_body
@@ -177,7 +178,10 @@ class WalkTick:
 class WalkPipeline:
     """Joints, inertia and the operator's orders in; joint targets out."""
 
-    def __init__(self, robot: RobotDescription, overrides: ParameterOverrides, dt: float) -> None:
+    def __init__(
+        self, robot: RobotDescription, overrides: ParameterOverrides, dt: float, *, holding: bool = False
+    ) -> None:
+        """`holding`: its servos already bear the robot with torque, and go on doing so."""
         self._robot = robot
         self._dt = dt
         self._overrides = overrides
@@ -188,7 +192,8 @@ class WalkPipeline:
         self._walker = Postures(robot, dt=dt)
         self._safety = SafetySupervisor()
         self._vigilance = Vigilance()
-        self._modes = ModeMachine()
+        self._modes = ModeMachine(torque_on=holding)
+        self._begun = False
         self._gate = JointGate(robot)
         self._propagator: StatePropagator | None = None
         self._posture = "sitting"
@@ -222,15 +227,16 @@ class WalkPipeline:
         """Where the legs may put their feet; lives on with the walker."""
         return self._walker.leg_reach
 
-    def step(self, sensed: Proprioception, orders: Orders) -> WalkTick:
+    def step(self, sensed: Proprioception, orders: Orders, troubles: Sequence[Trouble] = ()) -> WalkTick:
         state = self._navigate(sensed)
-        verdict = self._safety.step(
-            self._vigilance.inspect(sensed, state, orders, upright=self._posture != "sitting"), self._dt
-        )
+        upright = self._posture != "sitting"
+        inputs = self._vigilance.inspect(sensed, state, orders, upright=upright, troubles=troubles)
+        verdict = self._safety.step(inputs, self._dt)
         permission = self._modes.step(orders, verdict, self._posture)
         velocity, follower, route = self._velocity(state, orders, permission)
         report = self._parameters(sensed.stamp_ns)
-        if not permission.torque_on:
+        if not permission.torque_on or not self._begun:
+            self._begun = True
             self._walker.reset(sensed.joint_position)
         walk = self._walker.step(
             WalkInput(

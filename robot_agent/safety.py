@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import degrees, isfinite
 
+from robot_agent.body import Trouble
 from weaver_shared.config.safety import SafetyLimits
 from weaver_shared.messages import SafetyAction
 
@@ -33,6 +34,7 @@ class SafetyInputs:
     power_age: float
     temperature: float  # hottest servo, degrees Celsius
     battery_voltage: float
+    troubles: tuple[Trouble, ...] = ()  # what the body itself finds wrong
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,6 +107,8 @@ class SafetySupervisor:
 
     def _body(self, inputs: SafetyInputs) -> Iterator[tuple[SafetyAction, str]]:
         limits = self._limits
+        for trouble in inputs.troubles:
+            yield trouble.action, trouble.text
         if inputs.joints_missing > limits.joints_missing:
             yield SafetyAction.HOLD, f"a servo has not answered for {inputs.joints_missing:.1f} s"
         if inputs.temperature >= limits.temperature_sit:
@@ -113,6 +117,10 @@ class SafetySupervisor:
             yield SafetyAction.ALLOW, f"a servo is at {inputs.temperature:.0f} degrees Celsius"
         if inputs.power_age > limits.power_age:
             yield SafetyAction.SIT, f"the power monitor has been silent for {inputs.power_age:.0f} s"
+        elif inputs.power_age > limits.power_warn:
+            yield SafetyAction.ALLOW, f"the power monitor has been silent for {inputs.power_age:.0f} s"
+        elif inputs.battery_voltage <= limits.battery_off and not inputs.upright:
+            yield SafetyAction.CUT, f"the battery is at {inputs.battery_voltage:.1f} V: empty"
         elif inputs.battery_voltage <= limits.battery_sit:
             yield SafetyAction.SIT, f"the battery is at {inputs.battery_voltage:.1f} V"
         elif inputs.battery_voltage <= limits.battery_warn:

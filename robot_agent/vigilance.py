@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from robot_agent.battery_gauge import BatteryGauge
+from robot_agent.body import Trouble
 from robot_agent.odometry import NavigationState
 from robot_agent.orders import Orders
 from robot_agent.safety import SafetyInputs
@@ -19,6 +23,8 @@ class Vigilance:
         self._odometry_arrived_ns: int | None = None
         self._now_ns = 0
         self._missing_since_ns: np.ndarray | None = None
+        self._power_ns: int | None = None
+        self._battery = BatteryGauge()
 
     def odometry_arrived(self, estimate: OdometryEstimate) -> None:
         self._odometry = estimate
@@ -34,8 +40,18 @@ class Vigilance:
             return float("inf")
         return (self._now_ns - self._odometry_arrived_ns) * 1e-9
 
-    def inspect(self, sensed: Proprioception, state: NavigationState, orders: Orders, *, upright: bool) -> SafetyInputs:
+    def inspect(
+        self,
+        sensed: Proprioception,
+        state: NavigationState,
+        orders: Orders,
+        *,
+        upright: bool,
+        troubles: Sequence[Trouble] = (),
+    ) -> SafetyInputs:
         now = self._now_ns = sensed.stamp_ns
+        if np.isfinite(sensed.battery_voltage) or self._power_ns is None:
+            self._power_ns = now
         if sensed.imu.stamp_ns.size or self._imu_ns is None:
             self._imu_ns = now
         if self._missing_since_ns is None:
@@ -53,7 +69,8 @@ class Vigilance:
             odometry_age=self.odometry_age(),
             odometry_lost=lost,
             joints_missing=float(now - self._missing_since_ns.min()) * 1e-9,
-            power_age=0.0 if np.isfinite(sensed.battery_voltage) else float("inf"),
+            power_age=(now - self._power_ns) * 1e-9,
             temperature=float(np.max(sensed.joint_temperature)),
-            battery_voltage=sensed.battery_voltage,
+            battery_voltage=self._battery.step(sensed.battery_voltage, sensed.supply_current, now),
+            troubles=tuple(troubles),
         )

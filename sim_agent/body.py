@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.body import JointTargets
+from robot_agent.body import JointTargets, Trouble
 from sim_agent.model import sitting_joints
 from sim_agent.physics import RATE, ContactSensor, Engine
 from sim_agent.sensors import InertialSensor
@@ -97,6 +97,14 @@ class SimulatedBody:
 
     def write(self, targets: JointTargets) -> None:
         self._ordered = targets
+
+    def findings(self) -> tuple[Trouble, ...]:
+        """A simulated robot has no troubles of its own."""
+        return ()
+
+    @property
+    def holding(self) -> bool:
+        return False
 
     def truth(self) -> TruthState:
         """Where the body really is: for evaluation and display, never for the robot."""

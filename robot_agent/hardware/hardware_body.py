@@ -12,7 +12,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.body import JointTargets
+from robot_agent.body import JointTargets, Trouble
+from robot_agent.hardware.cycle_pace import CyclePace
+from robot_agent.hardware.derating import derated
 from robot_agent.hardware.foot_touch import FootTouch
 from robot_agent.hardware.joint_watch import JointState, JointWatch
 from robot_agent.hardware.servos import registers as r
@@ -22,15 +24,19 @@ from robot_agent.hardware.servos.port import LineClock, ServoPort
 from robot_agent.hardware.servos.preparation import Preparation
 from robot_agent.hardware.soft_start import SoftStart
 from robot_agent.hardware.sources import InertialSource, PowerReading, PowerSource
+from robot_agent.hardware.stuck_watch import StuckWatch
 from robot_agent.hardware.wiring import Wiring
-from weaver_shared.messages import ImuBatch, Proprioception
+from weaver_shared.errors import ResourceError
+from weaver_shared.messages import ImuBatch, Proprioception, SafetyAction
 
 logger = logging.getLogger(__name__)
 
 CONTROL_RATE = 100.0
 TICK_NS = round(1e9 / CONTROL_RATE)
-POWER_AGE = 1.0
+POWER_AGE = 0.2
 """s for which a reading of the power monitor stands."""
+MENDING_NS = 500_000_000
+"""Between attempts to make a servo ready again; each takes a tick or two."""
 UP_BLEND = 0.02
 """Share of each tick's specific force in what is taken for upwards."""
 
@@ -65,7 +71,7 @@ class HardwareBody:
         ]
         self.exchange = CyclicExchange(self._buses, clock, answer_margin=self._settings.answer_margin)
         self.watch = JointWatch(wiring, self._settings, 1.0 / CONTROL_RATE)
-        self._touch = FootTouch(self.robot)
+        self._touch = FootTouch(self.robot, 1.0 / CONTROL_RATE)
         self._start = SoftStart(self._settings)
         self._up = np.array([0.0, 0.0, 1.0])
         self._all = np.arange(self.robot.joint_count)
@@ -78,6 +84,10 @@ class HardwareBody:
         self._battery: PowerReading | None = None
         self._contact = np.zeros(self.robot.leg_count, dtype=np.bool_)
         self._refused = False
+        self._stuck = StuckWatch(self.robot.joint_count)
+        self._pace = CyclePace()
+        self._mend_ns = 0
+        self._unmended = ""
         self._told: list[str] = []
 
     def prepare(self) -> None:
@@ -95,14 +105,16 @@ class HardwareBody:
 
     def wait_next(self) -> int:
         """Sleep until the next tick of 10 ms, hear all servos and return the tick's stamp."""
-        # A tick that was missed is not made up for.
-        self._next_ns = max(self._next_ns + TICK_NS, self._clock.now_ns())
+        # Ticks begin with full hundredths of a second; one that was missed is not made up for.
+        self._next_ns = max(self._next_ns + TICK_NS, self._clock.now_ns()) // TICK_NS * TICK_NS
         self._clock.sleep_until(self._next_ns)
         self._stamp_ns = now_ns = self._clock.now_ns()
         if now_ns >= self._retry_ns:
             self._retry(now_ns)
         self._switched += 1
         self.exchange.read()
+        if self.exchange.answered.all():
+            self._pace.add(self.exchange.taken)
         self._judge(now_ns)
         self._samples = self._imu.take(self._clock.now_ns()) if self._imu is not None else ImuBatch.empty()
         if self._power is not None and (reading := self._power.take(self._clock.now_ns())) is not None:
@@ -139,12 +151,19 @@ class HardwareBody:
             self._switch(on=targets.torque_on)
         self._refused = False
         if not self._torque_on:
+            self._mend()
             return
         stopped = self.watch.state == JointState.STOPPED
         if stopped.any():
             self._go_on(stopped)
-        position, torque = self._start.limit(targets.position, targets.torque_limit, 1.0 / CONTROL_RATE)
-        self._send(position, torque)
+        position, allowed = self._start.limit(targets.position, targets.torque_limit, 1.0 / CONTROL_RATE)
+        allowed = self._stuck.ease(derated(allowed, self.watch.temperature))
+        self._stuck.step(position, self.watch.position, self.watch.torque, allowed, 1.0 / CONTROL_RATE)
+        self._send(position, allowed)
+
+    @property
+    def holding(self) -> bool:
+        return self._torque_on
 
     def recover(self) -> None:
         """Make servos that shut down or lost their settings ready again; only while torque is off.
@@ -160,11 +179,30 @@ class HardwareBody:
                     preparation.run()
         self._ask_those_who_answer(everybody=True)
 
+    def findings(self) -> list[Trouble]:
+        """What is wrong with servos and buses."""
+        names = self.robot.joint_names
+        unheard = np.zeros(self._all.size, dtype=np.bool_)
+        for bus in self._buses:
+            unheard[bus.joints] = not bus.up
+        holds = [f"bus {bus.port.port_name} is down" for bus in self._buses if not bus.up]
+        holds += [f"joint {names[joint]} is stuck" for joint in np.flatnonzero(self._stuck.stuck)]
+        said = ["torque stays off until every servo is well"] if self._refused else []
+        said += [self._unmended] if self._unmended else []
+        if self._pace.slow:
+            said.append(
+                "reading all servos takes more than 8 ms of a tick's 10: "
+                "set the adapters' latency timer to 1 ms and the servos' return delay to 0"
+            )
+        return [
+            *(Trouble(text=text, action=SafetyAction.HOLD) for text in holds),
+            *self.watch.findings(unheard),
+            *(Trouble(text=text, action=SafetyAction.ALLOW) for text in said),
+        ]
+
     def troubles(self) -> Sequence[str]:
-        """What is wrong with servos and buses, one sentence each."""
-        down = [f"bus {bus.port.port_name} is down" for bus in self._buses if not bus.up]
-        refused = ["torque stays off until every servo is well"] if self._refused else []
-        return down + self.watch.sentences() + refused
+        """The same, one sentence each."""
+        return [trouble.text for trouble in self.findings()]
 
     def close(self) -> None:
         """Stop talking. Servos with torque hold where they are, by their watchdogs."""
@@ -187,10 +225,32 @@ class HardwareBody:
             force = self._samples.specific_force_in_imu.mean(axis=0)
             self._up += UP_BLEND * (force / max(float(np.linalg.norm(force)), 1e-6) - self._up)
         up = self._up / np.linalg.norm(self._up)
-        self._contact = self._touch.step(self.watch.position, self.watch.torque, up)
+        self._contact = self._touch.step(self.watch.position, self.watch.velocity, self.watch.torque, up)
+
+    def _mend(self) -> None:
+        """With torque off nothing hangs on a servo: make one ready that shut down or lost its settings."""
+        broken = np.flatnonzero(np.isin(self.watch.state, (JointState.RESET, JointState.SHUT_DOWN)))
+        if not broken.size:
+            self._unmended = ""
+        elif self._stamp_ns >= self._mend_ns:
+            # Each in its turn: one that can not be helped must not keep the others waiting.
+            joint = int(broken[self._switched % broken.size])
+            bus = next(bus for bus in self._buses if joint in bus.joints)
+            preparation = Preparation(bus.port, self._wiring.place(joint))
+            try:
+                if self.watch.state[joint] == JointState.SHUT_DOWN:
+                    preparation.begin_reboot()
+                    self._mend_ns = self._stamp_ns + MENDING_NS
+                else:
+                    preparation.run()
+                self._unmended = ""
+            except ResourceError as error:
+                self._unmended = str(error)
+                self._mend_ns = self._stamp_ns + MENDING_NS
 
     def _switch(self, *, on: bool) -> None:
         self._torque_on = on
+        self._stuck.clear()
         self._switched = 0
         if on:
             self._start.begin(self.watch.position)

@@ -7,17 +7,21 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.body import Trouble
 from robot_agent.hardware.servos.exchange import CyclicExchange
 from robot_agent.hardware.servos.health_block import HARDWARE_ERRORS
 from robot_agent.hardware.servos.registers import WATCHDOG_TRIPPED
 from robot_agent.hardware.wiring import Wiring
 from weaver_shared.config.hardware import ServoSettings
+from weaver_shared.messages import SafetyAction
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 JUMP_SPEEDS = 3.0
 """An angle that would have taken more than so many times the servo's highest speed is a reading gone wrong."""
+JUMPED_CYCLES = 6
+"""A joint may tell impossible angles for so long, 60 ms, before the robot holds."""
 SWITCHING_CYCLES = 3
 """After an order to switch torque, servos may still report the old state."""
 
@@ -50,6 +54,7 @@ class JointWatch:
         self.hardware_error = np.zeros(count, dtype=np.uint8)
         self.misses = np.zeros(count, dtype=np.int64)
         """Cycles since the last sound answer."""
+        self._jumping = np.zeros(count, dtype=np.int64)
         self._known = np.zeros(count, dtype=np.bool_)
         self._all = np.arange(count)
 
@@ -65,7 +70,9 @@ class JointWatch:
         self._keep(taken, position, exchange, now_ns)
         self.hardware_error[answered] = block["hardware_error"][answered]
         lost = self.misses >= self._settings.lost_after
-        self._known[lost] = False
+        # Where nothing drives the joints, somebody may have turned them.
+        self._known[lost if torque_ordered else lost | jumped] = False
+        self._jumping = np.where(jumped, self._jumping + 1, 0)
         limp = answered & (block["torque_on"] == 0) & torque_ordered & (switching > SWITCHING_CYCLES)
         stopped = answered & (block["watchdog"] == WATCHDOG_TRIPPED)
         state = np.zeros_like(self.state)
@@ -83,12 +90,16 @@ class JointWatch:
         self.state = state
         self.valid = taken & (state == JointState.WELL)
 
-    def sentences(self) -> list[str]:
-        """What is wrong with which joints, for people."""
-        texts = []
+    def findings(self, unheard: Flags) -> list[Trouble]:
+        """What is wrong with which joints, but for those `unheard` (joints,) of; the robot holds for each."""
+        if (self.state == JointState.RESET).all():
+            return [Trouble(text="the servos' supply has failed: none knows its settings", action=SafetyAction.CUT)]
+        troubles = []
         names = self._wiring.robot.joint_names
-        for joint in map(int, np.flatnonzero(self.state > JointState.MISSING)):
+        for joint in map(int, np.flatnonzero((self.state > JointState.MISSING) & ~unheard)):
             state = JointState(self.state[joint])
+            if state is JointState.JUMPED and self._jumping[joint] < JUMPED_CYCLES:
+                continue
             text = {
                 JointState.LOST: "does not answer",
                 JointState.RESET: "has lost power for a moment and its settings with it",
@@ -97,8 +108,8 @@ class JointWatch:
                 JointState.LIMP: "has no torque though it was ordered",
                 JointState.JUMPED: "tells an angle it can not have reached",
             }[state]
-            texts.append(f"servo {names[joint]} {text}")
-        return texts
+            troubles.append(Trouble(text=f"servo {names[joint]} {text}", action=SafetyAction.HOLD))
+        return troubles
 
     def _keep(self, taken: Flags, position: Array, exchange: CyclicExchange, now_ns: int) -> None:
         block, joints = exchange.block[taken], self._all[taken]

@@ -101,6 +101,8 @@ class CyclicExchange:
         self.forgetful = np.zeros(count, dtype=np.bool_)
         """Who answered with another id than its own in its data: it has lost its RAM."""
         self.alert = np.zeros(count, dtype=np.bool_)
+        self.taken = 0.0
+        """s of the last cycle."""
 
     def read(self) -> None:
         """Ask everybody; returns when all have answered or the time for it is over."""
@@ -119,6 +121,7 @@ class CyclicExchange:
         self.answered[:] = self.forgetful[:] = False
         for bus in self.buses:
             self._believe(bus)
+        self.taken = (self._clock.now_ns() - begin_ns) * 1e-9
 
     def write(self, goals: NDArray[np.void]) -> None:
         """Send goals of WRITTEN_TYPE (joints,) to all."""

@@ -20,7 +20,7 @@ from robot_agent.hardware.servos.registers import Model, Register
 from weaver_shared.clock import Clock
 from weaver_shared.errors import ResourceError
 
-TRIES = 3
+TRIES = 8
 REBOOT_NS = 600_000_000
 LATE_MS = 50.0
 SNAPSHOT = r.PRESENT_TEMPERATURE.address + 1
@@ -68,8 +68,12 @@ class Preparation:
 
     def reboot(self, clock: Clock) -> None:
         """The only way out of a shutdown; waits until the servo is back."""
-        self._tried(lambda: (0, *_sdk.reboot(self._port, self._place.id)))
+        self.begin_reboot()
         clock.sleep_until(clock.now_ns() + REBOOT_NS)
+
+    def begin_reboot(self) -> None:
+        """It will not answer for a while, and then have lost its settings."""
+        self._tried(lambda: (0, *_sdk.reboot(self._port, self._place.id)))
 
     def write(self, register: Register, value: int) -> None:
         send = {1: _sdk.write1ByteTxRx, 2: _sdk.write2ByteTxRx, 4: _sdk.write4ByteTxRx}[register.size]

@@ -15,8 +15,10 @@ class SafetyLimits(BaseModel):
     imu_age: float = 0.2
     odometry_age: float = 0.5
     joints_missing: float = 0.1  # five cycles of 20 ms
+    power_warn: float = 1.0
     power_age: float = 5.0
     temperature_warn: float = 60.0
     temperature_sit: float = 75.0  # the servo's own shutdown is at 80
     battery_warn: float = 24.5  # V of a 7-cell pack
     battery_sit: float = 23.1
+    battery_off: float = 21.0  # once it sits
