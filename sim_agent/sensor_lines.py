@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -12,6 +13,7 @@ from robot_agent.hardware.imu import gx3, mip
 from robot_agent.hardware.imu.record import STANDARD_GRAVITY
 from robot_agent.hardware.imu.stream import Z_DOWN
 from robot_agent.hardware.power_monitor import HEARTBEAT, J_PER_MWH, PowerRecord, encode
+from robot_agent.hardware.serial_line import ByteLine
 from weaver_shared.messages import ImuBatch, Proprioception
 
 
@@ -19,6 +21,12 @@ class Device(Protocol):
     def obey(self, command: bytes) -> bytes:
         """The answers to commands, which come whole."""
         ...
+
+
+class SensorLine(ByteLine, Protocol):
+    """Both ends of a line: `put` is the device's."""
+
+    def put(self, data: bytes) -> None: ...
 
 
 class DirectLine:
@@ -140,15 +148,53 @@ class EmulatedPowerMonitor:
         return self.line(now_ns, sensed.battery_voltage, sensed.supply_current)
 
 
-class TwinSensors:
-    """IMU and power monitor of a simulated body, each on a line that a hardware body reads."""
+@dataclass(slots=True)
+class SensorTroubles:
+    """What goes wrong with the sensors; 0: nothing."""
 
-    def __init__(self, imu: EmulatedGx3 | EmulatedGx5) -> None:
+    imu_silent: float = 0.0
+    imu_frozen: float = 0.0  # 1: the same reading again and again
+    imu_clock: float = 0.0  # s by which the device's clock is ahead
+    power_silent: float = 0.0
+    battery: float = 0.0  # V that the monitor sees instead of what there is
+
+
+class TwinSensors:
+    """IMU and power monitor of a simulated body, each on a line that a hardware body reads.
+
+    `line` makes the lines called "imu" and "power" of their devices.
+    """
+
+    def __init__(
+        self,
+        imu: EmulatedGx3 | EmulatedGx5,
+        line: Callable[[str, Device], SensorLine] = lambda _name, device: DirectLine(device),
+    ) -> None:
         self.imu, self.monitor = imu, EmulatedPowerMonitor()
-        self.imu_line, self.power_line = DirectLine(imu), DirectLine(self.monitor)
+        self.troubles = SensorTroubles()
+        self._frozen: ImuBatch | None = None
+        self.imu_line, self.power_line = line("imu", imu), line("power", self.monitor)
 
     def hear(self, now_ns: int, sensed: Proprioception) -> None:
         """Send what the simulated body felt in a tick."""
-        for record in self.imu.records(sensed.imu):
-            self.imu_line.put(record)
-        self.power_line.put(self.monitor.of(now_ns, sensed))
+        troubles = self.troubles
+        if not troubles.imu_silent:
+            for record in self.imu.records(self._measured(sensed.imu)):
+                self.imu_line.put(record)
+        if not troubles.power_silent:
+            voltage = troubles.battery or sensed.battery_voltage
+            self.power_line.put(self.monitor.line(now_ns, voltage, sensed.supply_current))
+
+    def _measured(self, batch: ImuBatch) -> ImuBatch:
+        if not self.troubles.imu_frozen:
+            self._frozen = None
+        elif batch.stamp_ns.size:
+            self._frozen = self._frozen or batch
+            count = batch.stamp_ns.size
+            batch = replace(
+                batch,
+                angular_velocity_in_imu=np.repeat(self._frozen.angular_velocity_in_imu[:1], count, axis=0),
+                specific_force_in_imu=np.repeat(self._frozen.specific_force_in_imu[:1], count, axis=0),
+            )
+        ahead_ns = round(self.troubles.imu_clock * 1e9)
+        return replace(batch, stamp_ns=batch.stamp_ns + ahead_ns) if ahead_ns else batch

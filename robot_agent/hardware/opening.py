@@ -2,18 +2,49 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
+from pathlib import Path
+
+from robot_agent.hardware.emulated_clock import EmulatedClock
 from robot_agent.hardware.hardware_body import HardwareBody
 from robot_agent.hardware.imu.stream import MicroStrainImu, gx3_imu, gx5_imu
 from robot_agent.hardware.power_monitor import BAUD, PowerMonitor
 from robot_agent.hardware.serial_line import SerialLine
-from robot_agent.hardware.servos.port import MonotonicLineClock, SerialPort, ServoPort
+from robot_agent.hardware.servos.port import LineClock, MonotonicLineClock, SerialPort, ServoPort
 from robot_agent.hardware.sources import InertialSource, PowerSource
 from robot_agent.hardware.wiring import Wiring
 from weaver_shared.config.hardware import ImuLine, PowerLine, ServoBus
 
+EMULATED = "EMULATED BUS"
+
+
+def open_robot(wiring: Wiring) -> HardwareBody:
+    """Everything that a wiring names, prepared: the robot that is there, or an emulated one that says so.
+
+    Raises ResourceError where something is taken, missing or not what it has to be.
+    """
+    config = wiring.config
+    with ExitStack() as opened:
+        imu = open_imu(config.imu, wiring.robot.imu.rate) if config.imu else None
+        power = open_power(config.power) if config.power else None
+        for source in (imu, power):
+            if source is not None:
+                opened.callback(source.close)
+        clock = EmulatedClock(Path(config.emulated.clock)) if config.emulated else None
+        body = open_body(wiring, kind=EMULATED if clock else "REAL", imu=imu, power=power, clock=clock)
+        opened.callback(body.close)
+        body.prepare()
+        opened.pop_all()
+    return body
+
 
 def open_body(
-    wiring: Wiring, *, kind: str = "REAL", imu: InertialSource | None = None, power: PowerSource | None = None
+    wiring: Wiring,
+    *,
+    kind: str = "REAL",
+    imu: InertialSource | None = None,
+    power: PowerSource | None = None,
+    clock: LineClock | None = None,
 ) -> HardwareBody:
     """A body on the serial ports of a wiring, not yet prepared. Raises ResourceError where one is taken or missing."""
     ports: dict[str, ServoPort] = {}
@@ -24,7 +55,7 @@ def open_body(
         for opened in ports.values():
             opened.closePort()
         raise
-    return HardwareBody(wiring, ports, MonotonicLineClock(), kind=kind, imu=imu, power=power)
+    return HardwareBody(wiring, ports, clock or MonotonicLineClock(), kind=kind, imu=imu, power=power)
 
 
 def open_port(wiring: Wiring, bus: ServoBus) -> SerialPort:

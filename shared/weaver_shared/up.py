@@ -17,6 +17,7 @@ from weaver_shared.bus import free_port
 from weaver_shared.errors import ConfigurationError, ResourceError
 from weaver_shared.supervisor import Supervisor
 from weaver_shared.topics import robot_key
+from weaver_shared.twin_folder import twin_folder
 
 HOST = "127.0.0.1"
 RENDEZVOUS = 7447
@@ -26,8 +27,6 @@ RENDEZVOUS = 7447
 def main(arguments: list[str]) -> int:
     options = _parser().parse_args(arguments)
     robot_key(options.robot_id, "")
-    if options.robot != "sim":
-        raise ConfigurationError(f"robot {options.robot!r} can not be started; `sim` is what this version starts")
     if options.console:
         _require_free(options.port)
     rendezvous = f"tcp/{HOST}:{_port_or_free(RENDEZVOUS)}" if options.console else options.connect
@@ -51,8 +50,18 @@ def _start(supervisor: Supervisor, options: argparse.Namespace, *, rendezvous: s
     known = ["--robot-id", options.robot_id, "--connect", f"{rendezvous},{robot}"]
     world = ["--world", options.world, "--seed", str(options.seed)]
     name = ["--robot", options.description]
-    sim = ["--robot-id", options.robot_id, "--connect", rendezvous, "--listen", robot, "--stand"]
-    supervisor.add("the robot", ["weaver_shared.command_line", "sim", *sim, *world, *name], nice=-5)
+    own = ["--robot-id", options.robot_id, "--connect", rendezvous, "--listen", robot, "--stand"]
+    if options.robot == "twin":
+        # The ports of one that was killed lead nowhere.
+        wiring = twin_folder(options.robot_id) / "wiring.toml"
+        wiring.unlink(missing_ok=True)
+        supervisor.add(
+            "the emulated devices", ["weaver_shared.command_line", "twin", "run", *known, *world, *name], nice=-5
+        )
+        walk = ["--role", "walk", "--wiring", str(wiring), "--wait", "60", "--world", options.world]
+        supervisor.add("the robot", ["weaver_shared.command_line", "robot", *walk, *own, *name], nice=-5)
+    else:
+        supervisor.add("the robot", ["weaver_shared.command_line", "sim", *own, *world, *name], nice=-5)
     supervisor.add("the renderer", ["sim_agent.render_process", *known, *world, *name], nice=2)
     supervisor.add("vision", ["weaver_shared.command_line", "robot", "--role", "vision", *known, *name], nice=2)
     recorder = ["--robot-id", options.robot_id, "--connect", f"{rendezvous},{robot}", "--folder", options.recordings]
@@ -110,7 +119,9 @@ def _interrupt(_signal: int, _frame: types.FrameType | None) -> None:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="weaver up", description=__doc__)
-    parser.add_argument("--robot", default="sim", help="which body to start: sim")
+    parser.add_argument(
+        "--robot", choices=("sim", "twin"), default="sim", help="twin: real drivers on emulated servos, IMU and power"
+    )
     parser.add_argument("--description", default="weaver", help="robot description: a shipped name or a TOML file")
     parser.add_argument("--robot-id", default="sim-1", help="name on the bus, unique per robot")
     parser.add_argument("--world", default="testbed", help="flat, testbed, outdoor or stairs")

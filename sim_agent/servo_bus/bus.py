@@ -62,7 +62,7 @@ class EmulatedBus:
     ) -> None:
         self.servos = list(servos)
         self.troubles = LineTroubles()
-        self._latency_ns = round(adapter_latency * 1e9)
+        self.latency_ns = round(adapter_latency * 1e9)
         self._byte_ns = BITS_PER_BYTE * 1e9 / baud
         self._advance = advance
         self._random = Random(seed)
@@ -180,7 +180,7 @@ class EmulatedBus:
         if touched and self._random.random() < troubles.spoilt_answers:
             place = self._random.randrange(len(message))
             message = message[:place] + bytes([message[place] ^ self._random.randrange(1, 256)]) + message[place + 1 :]
-        self._replies.append(Reply(self._line_free_ns + self._latency_ns, message))
+        self._replies.append(Reply(self._line_free_ns + self.latency_ns, message))
 
 
 def _by_id(servos: list[EmulatedServo]) -> dict[int, list[EmulatedServo]]:

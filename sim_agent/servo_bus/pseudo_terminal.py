@@ -7,6 +7,7 @@ import select
 import threading
 import time
 import tty
+from collections.abc import Callable
 from pathlib import Path
 
 from sim_agent.servo_bus.bus import EmulatedBus, Reply
@@ -18,10 +19,19 @@ _POLL = 0.05
 class PseudoTerminal:
     """Serves `bus` under the stable name `link` until closed; `paced` delivers answers no sooner than a line would."""
 
-    def __init__(self, bus: EmulatedBus, link: Path, *, paced: bool = True, lock: threading.Lock | None = None) -> None:
+    def __init__(
+        self,
+        bus: EmulatedBus,
+        link: Path,
+        *,
+        paced: bool = True,
+        lock: threading.Lock | None = None,
+        now_ns: Callable[[], int] = time.monotonic_ns,
+    ) -> None:
         self.bus = bus
         self.link = link
         self._paced = paced
+        self._now_ns = now_ns
         self._lock = lock or threading.Lock()
         self._ends: tuple[int, int] | None = None
         self._thread: threading.Thread | None = None
@@ -60,12 +70,12 @@ class PseudoTerminal:
         while not ending.is_set():
             pause = _POLL
             if waiting:
-                pause = min(max(waiting[0].arrives_ns - time.monotonic_ns(), 0) * 1e-9, _POLL)
+                pause = min(max(waiting[0].arrives_ns - self._now_ns(), 0) * 1e-9, _POLL)
             if select.select([master], [], [], pause)[0]:
                 data = os.read(master, 4096)
                 with self._lock:
-                    waiting += self.bus.transmit(data, time.monotonic_ns())
-            due_ns = time.monotonic_ns()
+                    waiting += self.bus.transmit(data, self._now_ns())
+            due_ns = self._now_ns()
             ready = [reply for reply in waiting if reply.arrives_ns <= due_ns or not self._paced]
             if ready:
                 os.write(master, b"".join(reply.data for reply in ready))

@@ -36,6 +36,10 @@ class EmulatedServo:
         """False: unplugged, or dead."""
         self.temperature = 25.0  # degrees Celsius
         self.voltage = 14.8
+        self.slipped = 0
+        """Counts by which the encoder is wrong."""
+        self.jammed_at: float | None = None
+        """Where something holds the shaft fast, rad from the middle."""
         self._deaf_until_ns = 0
         self._fed_ns = 0
         self._started_ns = 0
@@ -51,6 +55,8 @@ class EmulatedServo:
         limit = table[r.CURRENT_LIMIT]
         if table[r.OPERATING_MODE] in _CURRENT_MODES:
             limit = min(limit, abs(table[r.GOAL_CURRENT]))
+        if self.jammed_at is not None:
+            return Order(torque_on=True, position=self.jammed_at, current_limit=table[r.CURRENT_LIMIT] * r.CURRENT_UNIT)
         return Order(
             torque_on=bool(table[r.TORQUE_ENABLE]),
             position=(table[r.GOAL_POSITION] - r.CENTRE) * r.RAD_PER_COUNT,
@@ -66,10 +72,21 @@ class EmulatedServo:
         """Where the shaft is (rad from the middle), how it moves (rad/s) and what the motor draws (A)."""
         table = self.table
         self._position = position
-        table[r.PRESENT_POSITION] = round(position / r.RAD_PER_COUNT) + r.CENTRE
+        table[r.PRESENT_POSITION] = round(position / r.RAD_PER_COUNT) + r.CENTRE + self.slipped
         table[r.PRESENT_VELOCITY] = round(velocity / r.VELOCITY_UNIT)
-        table[r.PRESENT_CURRENT] = round(current / r.CURRENT_UNIT)
+        table[r.PRESENT_CURRENT] = self._pushing() if self.jammed_at is not None else round(current / r.CURRENT_UNIT)
         table[r.MOVING] = int(abs(table[r.PRESENT_VELOCITY]) > table[r.MOVING_THRESHOLD])
+
+    def jam(self) -> None:
+        """From now on something holds the shaft where it is."""
+        self.jammed_at = self._position
+
+    def _pushing(self) -> int:
+        """Current units of a motor that pulls at a jammed shaft, all that it may from 20 degrees on."""
+        table = self.table
+        error = table[r.GOAL_POSITION] - table[r.PRESENT_POSITION]
+        limit = min(table[r.CURRENT_LIMIT], abs(table[r.GOAL_CURRENT])) if table[r.TORQUE_ENABLE] else 0
+        return max(min(error * limit // 228, limit), -limit)
 
     def elapse(self, now_ns: int) -> None:
         """Let the time up to `now_ns` pass: the clock, the watchdog, heat and voltage."""

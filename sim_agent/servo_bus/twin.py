@@ -15,7 +15,8 @@ from robot_agent.hardware.wiring import Wiring
 from sim_agent.servo_bus.bus import EmulatedBus
 from sim_agent.servo_bus.pseudo_terminal import PseudoTerminal
 from sim_agent.servo_bus.servo import EmulatedServo
-from sim_agent.servo_bus.virtual_port import VirtualLineClock, VirtualPort
+from sim_agent.servo_bus.virtual_port import VirtualPort
+from sim_agent.servo_bus.wire import VirtualLineClock
 
 KIND = "EMULATED BUS"
 

@@ -6,14 +6,30 @@ import json
 from pathlib import Path
 
 from robot_agent.hardware.servos.registers import CENTRE
-from weaver_shared.config.hardware import HardwareConfig, ServoBus, ServoSettings, WiredJoint
+from weaver_shared.config.hardware import (
+    EmulatedRobot,
+    HardwareConfig,
+    ImuLine,
+    PowerLine,
+    ServoBus,
+    ServoSettings,
+    WiredJoint,
+)
 from weaver_shared.robots import RobotDescription
 
 
 def twin_wiring(
-    robot: RobotDescription, folder: Path, *, baud: int = 3_000_000, settings: ServoSettings | None = None
+    robot: RobotDescription,
+    folder: Path,
+    *,
+    baud: int = 3_000_000,
+    settings: ServoSettings | None = None,
+    clock: Path | None = None,
 ) -> HardwareConfig:
-    """Legs right of the body on one bus and left of it on the other; ports are names in `folder`."""
+    """Legs right of the body on one bus and left of it on the other; ports are names in `folder`.
+
+    With `clock`, where the robot's time stands, IMU and power monitor have lines too.
+    """
     sides = ["right" if leg.hip_in_body[1] < 0.0 else "left" for leg in robot.legs]
     joints = []
     for index, name in enumerate(robot.joint_names):
@@ -26,6 +42,9 @@ def twin_wiring(
         buses=tuple(ServoBus(name=side, port=str(folder / side), baud=baud) for side in ("right", "left")),
         joints=tuple(joints),
         servos=settings or ServoSettings(),
+        imu=ImuLine(kind="gx5", port=str(folder / "imu")) if clock is not None else None,
+        power=PowerLine(port=str(folder / "power")) if clock is not None else None,
+        emulated=EmulatedRobot(clock=str(clock)) if clock is not None else None,
     )
 
 

@@ -58,6 +58,12 @@ class PowerLine(Strict):
     port: str
 
 
+class EmulatedRobot(Strict):
+    """That the devices are emulated, and the file in which their time stands."""
+
+    clock: str
+
+
 class HardwareConfig(Strict):
     robot: str
     buses: Annotated[tuple[ServoBus, ...], Field(min_length=1)]
@@ -65,6 +71,7 @@ class HardwareConfig(Strict):
     servos: ServoSettings = ServoSettings()
     imu: ImuLine | None = None
     power: PowerLine | None = None
+    emulated: EmulatedRobot | None = None  # not for robots that exist
 
     @model_validator(mode="after")
     def _consistent(self) -> HardwareConfig:

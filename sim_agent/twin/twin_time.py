@@ -1,0 +1,37 @@
+"""Keeps the time of an emulated robot where its programs find it."""
+
+from __future__ import annotations
+
+import mmap
+import time
+from pathlib import Path
+
+from robot_agent.hardware.emulated_clock import LAYOUT, TICK_NS
+
+
+class TwinTime:
+    """Goes on from where an emulator before it has ended, so that nobody's clock runs backwards."""
+
+    def __init__(self, path: Path) -> None:
+        if not path.exists() or path.stat().st_size != LAYOUT.size:
+            path.write_bytes(LAYOUT.pack(0, 0, time.monotonic_ns(), 0))
+        with path.open("r+b") as file:
+            self._map = mmap.mmap(file.fileno(), LAYOUT.size)
+        self._count: int
+        self._ended_ns: int
+        self._at_ns: int
+        self._count, self._ended_ns, self._at_ns, _ = LAYOUT.unpack_from(self._map)
+        self.begun_ns = self._ended_ns + TICK_NS
+        """Of this emulator; a full tick after all that was ever told."""
+        self.tick(self.begun_ns)
+
+    def tick(self, ended_ns: int) -> None:
+        """A tick of physics has ended at this time of the robot's."""
+        self._count += 1
+        self._ended_ns, self._at_ns = ended_ns, time.monotonic_ns()
+        # Between its two counts a reader sees whether it was read half written.
+        LAYOUT.pack_into(self._map, 0, self._count, ended_ns, self._at_ns, self._count - 1)
+        LAYOUT.pack_into(self._map, 0, self._count, ended_ns, self._at_ns, self._count)
+
+    def now_ns(self) -> int:
+        return self._ended_ns + min(time.monotonic_ns() - self._at_ns, TICK_NS)
