@@ -4,23 +4,24 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import json
 import re
 import time
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator
 from importlib.metadata import version
 from pathlib import Path
 from typing import Annotated
-from urllib.parse import parse_qs
 
 from fastapi import FastAPI, Query, Request, Response, WebSocket, WebSocketDisconnect
 from fastapi.exceptions import RequestValidationError
-from fastapi.responses import FileResponse, HTMLResponse, JSONResponse, RedirectResponse
+from fastapi.responses import FileResponse, HTMLResponse, JSONResponse
 
 from weaver_console import built_page
-from weaver_console.access import COOKIE, VALID_S, Access
+from weaver_console.access import Access
+from weaver_console.body_limit import BodyLimit
 from weaver_console.database import data_folder
+from weaver_console.guard import guard
 from weaver_console.hub import Hub
+from weaver_console.login_api import add_login, add_user_api
 from weaver_console.mission_api import add_mission_api
 from weaver_console.page_session import PageSession
 from weaver_console.rerun_viewer import add_rerun
@@ -29,31 +30,6 @@ from weaver_console.roster import describe
 from weaver_console.scene_page import scene_page
 from weaver_console.scene_proxy import carry
 from weaver_shared.errors import InputError
-
-PAGE_POLICY = (
-    "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; connect-src 'self'; "
-    "frame-src 'self'; frame-ancestors 'self'; object-src 'none'; base-uri 'self'; form-action 'self'"
-)
-SCENE_POLICY = (
-    "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval' 'wasm-unsafe-eval' blob: data:; "
-    "worker-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
-    "font-src 'self' data:; connect-src 'self' {host} data: blob:; frame-ancestors 'self'; object-src 'none'"
-)
-"""viser's page is one file with its scripts inside, which needs more than ours; neither may ask another host.
-
-Its sandbox has no origin that 'self' could stand for in a worker, so the host is named.
-"""
-
-RERUN_POLICY = (
-    "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval' 'wasm-unsafe-eval' blob:; "
-    "worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; connect-src 'self' blob:; "
-    "frame-ancestors 'self'; object-src 'none'; base-uri 'self'; form-action 'none'"
-)
-"""Rerun's viewer would ask for fonts and news of other hosts; it works without."""
-
-_HOST = re.compile(r"[A-Za-z0-9.:\[\]-]{1,255}")
-
-LARGEST_LOGIN = 4096
 
 _PAGE_ID = re.compile(r"[A-Za-z0-9-]{8,64}")
 
@@ -75,13 +51,15 @@ def create_app(hub: Hub, access: Access, *, folder: Path | None = None, data: Pa
 
     app = FastAPI(title="Weaver Console", version=version("weaver-hexapod"), lifespan=lifespan, docs_url=None,
                   redoc_url=None)  # fmt: skip
-    app.middleware("http")(_guard(access, hub))
+    app.middleware("http")(guard(access, hub))
+    app.add_middleware(BodyLimit)
     app.exception_handler(RequestValidationError)(_not_valid)
     _add_api(app, hub)
     add_mission_api(app, hub.missions)
     add_robot_files(app, hub.link)
     add_rerun(app, hub.link, (data or data_folder()) / "rerun")
-    _add_login(app, access)
+    add_login(app, access, hub.link.events)
+    add_user_api(app, access, hub.link.events)
     _add_sockets(app, hub, access)
     _add_pages(app, hub, folder)
     return app
@@ -93,44 +71,6 @@ async def _not_valid(_: Request, error: Exception) -> Response:
     first = error.errors()[0]
     where = ".".join(str(part) for part in first["loc"][1:])
     return JSONResponse({"error": f"{where or first['loc'][0]}: {first['msg']}"}, status_code=422)
-
-
-def _guard(
-    access: Access, hub: Hub
-) -> Callable[[Request, Callable[[Request], Awaitable[Response]]], Awaitable[Response]]:
-    """Checks origin and cookie before anything else, and sets the headers of every answer."""
-
-    async def guard(request: Request, go_on: Callable[[Request], Awaitable[Response]]) -> Response:
-        path = request.url.path
-        scene = path.startswith("/viser/")
-        if not access.origin_allowed(request.headers, sandboxed=scene):
-            response: Response = JSONResponse({"error": "requests from other sites are refused"}, status_code=403)
-        elif (
-            path in ("/api/health", "/api/login")
-            or access.admits(request.cookies.get(COOKIE))
-            # A 3-D view's sandbox sends no cookie, but it has been told a secret.
-            or (scene and hub.page_of(path.split("/")[2]) is not None)
-        ):
-            response = await go_on(request)
-        elif path == "/":
-            response = HTMLResponse(built_page.LOGIN, status_code=401)
-        else:
-            response = JSONResponse({"error": "log in first"}, status_code=401)
-        response.headers["Content-Security-Policy"] = _policy(request)
-        response.headers["X-Content-Type-Options"] = "nosniff"
-        response.headers["Referrer-Policy"] = "same-origin"
-        return response
-
-    return guard
-
-
-def _policy(request: Request) -> str:
-    if request.url.path.startswith("/rerun/"):
-        return RERUN_POLICY
-    if not request.url.path.startswith("/viser/"):
-        return PAGE_POLICY
-    host = request.headers.get("host", "")
-    return SCENE_POLICY.format(host=f"{host} ws://{host} wss://{host}" if _HOST.fullmatch(host) else "")
 
 
 def _add_api(app: FastAPI, hub: Hub) -> None:
@@ -159,63 +99,22 @@ def _add_api(app: FastAPI, hub: Hub) -> None:
         return {"events": [event.to_page() for event in past]}
 
 
-def _add_login(app: FastAPI, access: Access) -> None:
-    @app.post("/api/login")
-    async def login(request: Request) -> Response:
-        body = await request.body()
-        is_form = request.headers.get("content-type", "").startswith("application/x-www-form-urlencoded")
-        if access.blocked:
-            return JSONResponse({"error": "too many wrong passwords; wait a minute"}, status_code=429)
-        password = _password(body, is_form) if len(body) <= LARGEST_LOGIN else None
-        if password is None:
-            return JSONResponse({"error": 'send {"password": "..."}'}, status_code=422)
-        if access.open or not access.check_password(password):
-            if is_form:
-                return HTMLResponse(built_page.LOGIN, status_code=401)
-            return JSONResponse({"error": "the password is wrong"}, status_code=401)
-        response: Response = RedirectResponse("/", status_code=303) if is_form else JSONResponse({"status": "ok"})
-        response.set_cookie(COOKIE, access.issue_cookie(), max_age=VALID_S, httponly=True, samesite="strict",
-                            secure=request.url.scheme == "https")  # fmt: skip
-        return response
-
-    @app.post("/api/logout")
-    async def logout() -> Response:
-        response = JSONResponse({"status": "ok"})
-        response.delete_cookie(COOKIE)
-        return response
-
-
-def _password(body: bytes, is_form: bool) -> str | None:
-    try:
-        if is_form:
-            return parse_qs(body.decode()).get("password", [""])[0]
-        password = json.loads(body)["password"]
-    except (ValueError, KeyError, TypeError, RecursionError):
-        return None
-    return password if isinstance(password, str) else None
-
-
 def _add_sockets(app: FastAPI, hub: Hub, access: Access) -> None:
-    async def admitted(socket: WebSocket) -> bool:
-        """Whether the connection may go on; else it has been closed."""
-        if not access.origin_allowed(socket.headers):
-            await socket.close(code=1008)
-            return False
-        if not access.admits(socket.cookies.get(COOKIE)):
-            await socket.close(code=LOGIN_NEEDED)
-            return False
-        return True
-
     @app.websocket("/ws")
     async def page_socket(socket: WebSocket, page: str = "", operator: str = "") -> None:
-        if not await admitted(socket):
+        if not access.origin_allowed(socket.headers):
+            await socket.close(code=1008)
             return
-        await socket.accept()
+        who = access.identify(socket.headers, socket.cookies)
+        await socket.accept()  # or the page would not be told why it is closed
+        if who is None:
+            await socket.close(code=LOGIN_NEEDED, reason="log in first")
+            return
         if not _PAGE_ID.fullmatch(page):
             await socket.close(code=1008, reason="page is an id of 8 to 64 letters, digits and -")
             return
         try:
-            session = hub.enter(page, operator)
+            session = hub.enter(page, operator, who, lambda: access.identify(socket.headers, socket.cookies))
         except InputError as error:
             await socket.close(code=1008, reason=str(error))
             return
@@ -244,7 +143,7 @@ async def _converse(socket: WebSocket, session: PageSession, hub: Hub) -> None:
         task.cancel()
     await asyncio.gather(*waiting, return_exceptions=True)
     with contextlib.suppress(RuntimeError, WebSocketDisconnect, OSError):
-        await socket.close(code=1000 if hub.current(session) else REPLACED)
+        await socket.close(code=LOGIN_NEEDED if session.over else 1000 if hub.current(session) else REPLACED)
     for task in done:
         error = task.exception()
         if error is not None and not isinstance(error, WebSocketDisconnect | TimeoutError | RuntimeError | OSError):

@@ -1,10 +1,11 @@
 """Where the built page is, and what the console says without one."""
 
+import html
 from pathlib import Path
 
 _PACKAGE = Path(__file__).parent
 
-LOGIN = """<!doctype html>
+_LOGIN = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <title>Weaver Console: log in</title>
 <style>
@@ -12,10 +13,13 @@ LOGIN = """<!doctype html>
 body { display: grid; place-items: center; min-height: 100vh; margin: 0; }
 form { display: grid; gap: 0.75rem; width: min(20rem, 90vw); }
 input, button { font: inherit; padding: 0.6rem 0.8rem; }
+.wrong { color: light-dark(#a3101c, #ff9aa2); margin: 0; }
 </style></head><body><main><form method="post" action="/api/login">
 <h1>Weaver Console</h1>
+{reason}<label for="name">Name</label>
+<input id="name" name="name" autocomplete="username" autofocus required>
 <label for="password">Password</label>
-<input id="password" name="password" type="password" autocomplete="current-password" autofocus required>
+<input id="password" name="password" type="password" autocomplete="current-password" required>
 <button type="submit">Log in</button>
 </form></main></body></html>
 """
@@ -28,6 +32,12 @@ page, or run <code>npm ci</code> and <code>npm run build</code> in the folder <c
 again.</p>
 </main></body></html>
 """
+
+
+def login_page(reason: str = "") -> str:
+    """The form, with why the last try was refused."""
+    told = f'<p class="wrong" role="alert">{html.escape(reason.capitalize())}.</p>\n' if reason else ""
+    return _LOGIN.replace("{reason}", told)
 
 
 def page_folder() -> Path | None:

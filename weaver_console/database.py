@@ -1,4 +1,4 @@
-"""The console's one SQLite file: missions by name, and every event with who caused it."""
+"""The console's one SQLite file: missions by name, every event with who caused it, and the users."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 
 from weaver_shared.errors import ResourceError
 
-VERSION = 1
+VERSION = 2
 BUSY = 5.0
 """s to wait for another console that writes to the same file."""
 
@@ -24,6 +24,15 @@ create table event (
 ) strict;
 create index event_time on event (time);
 """
+
+_USERS = """
+create table user (
+    name text primary key, role text not null, password text not null, added real not null
+) strict;
+create table session (digest text primary key, user text not null, expires real not null) strict;
+create table token (digest text primary key, user text not null, added real not null) strict;
+"""
+"""New with version 2. Of secrets only digests are kept."""
 
 
 def data_folder() -> Path:
@@ -42,6 +51,7 @@ class Database:
         try:
             if path is not None:
                 path.parent.mkdir(parents=True, exist_ok=True)
+                path.touch(mode=0o600)  # its passwords are hashed, but nobody else's business
             self._connection = sqlite3.connect(self._where, timeout=BUSY, check_same_thread=False)
             self._prepare()
         except (OSError, sqlite3.Error) as error:
@@ -66,7 +76,9 @@ class Database:
         self._connection.execute("pragma synchronous = normal")
         (version,) = self._connection.execute("pragma user_version").fetchone()
         if version == 0:
-            self._connection.executescript(f"begin; {_TABLES} pragma user_version = {VERSION}; commit;")
+            self._connection.executescript(f"begin; {_TABLES} {_USERS} pragma user_version = {VERSION}; commit;")
+        elif version == 1:
+            self._connection.executescript(f"begin; {_USERS} pragma user_version = {VERSION}; commit;")
         elif version != VERSION:
             self._connection.close()
             raise ResourceError(

@@ -11,8 +11,10 @@ import random
 import secrets
 import threading
 import time
+from collections.abc import Callable
 
 from weaver_console import operator_names
+from weaver_console.access import OPEN, Identity
 from weaver_console.command_desk import CommandDesk
 from weaver_console.database import Database
 from weaver_console.event_archive import EventArchive
@@ -26,6 +28,9 @@ from weaver_console.scene.terrain_figure import MeshStore
 logger = logging.getLogger(__name__)
 
 CHECK_PERIOD = 0.1
+EXPIRY_PERIOD = 1.0
+"""s between two looks whether whoever has logged in still may be here."""
+
 SCENE_PERIOD = 0.05
 """20 Hz for the robot in the 3-D views."""
 
@@ -63,6 +68,7 @@ class Hub:
         self._scenes: dict[str, PageScene] = {}
         self._orphaned: dict[str, float] = {}
         self._store = MeshStore()
+        self._expiry_due = 0.0
         self._stopping = threading.Event()
         self._drawer = threading.Thread(target=self._draw, name="scenes", daemon=True)
 
@@ -87,6 +93,7 @@ class Hub:
             self.link.check()
             self.roster.refresh()
             self._close_orphans()
+            self._end_expired()
             if self.archive.behind:
                 await asyncio.to_thread(self.archive.flush)
             await asyncio.sleep(CHECK_PERIOD)
@@ -102,8 +109,15 @@ class Hub:
         self.archive.flush()
         self._database.close()
 
-    def enter(self, page: str, operator: str) -> PageSession:
-        """A page connects, or again with the same id; an empty operator gets an invented name."""
+    def enter(
+        self, page: str, operator: str, who: Identity = OPEN, still: Callable[[], Identity | None] = lambda: OPEN
+    ) -> PageSession:
+        """A page connects, or again with the same id; an empty operator gets an invented name.
+
+        Whoever has logged in goes by that name. `still` tells who the page is from later on: None once the login has
+        expired.
+        """
+        operator = who.name or operator
         taken = {session.operator for name, session in self._sessions.items() if name != page}
         if operator:
             name = operator_names.distinct(operator_names.valid(operator), taken)
@@ -112,7 +126,14 @@ class Hub:
         # The same for a page that returns, so that its view stays; nobody can tell it from the page's id.
         key = hmac.new(self._secret, page.encode(), hashlib.sha256).hexdigest()[:32]
         session = PageSession(
-            page=page, scene_key=key, operator=name, link=self.link, roster=self.roster, desk=self._desk
+            page=page,
+            scene_key=key,
+            operator=name,
+            who=who,
+            still=still,
+            link=self.link,
+            roster=self.roster,
+            desk=self._desk,
         )
         self._sessions[page] = session
         self._orphaned.pop(page, None)
@@ -160,6 +181,14 @@ class Hub:
         session = self._sessions.get(page)
         if session is not None:
             getattr(session, what)(*arguments)
+
+    def _end_expired(self) -> None:
+        now = time.monotonic()
+        if now < self._expiry_due:
+            return
+        self._expiry_due = now + EXPIRY_PERIOD
+        for session in list(self._sessions.values()):
+            session.check_login()
 
     def _close_orphans(self) -> None:
         for page, since in list(self._orphaned.items()):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
+import time
 from collections import deque
 from collections.abc import Callable, Coroutine
 from importlib.metadata import version
@@ -13,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weaver_console import page_messages as p
+from weaver_console.access import Identity
+from weaver_console.access.rate_limit import RateLimit
 from weaver_console.command_desk import CommandDesk, Reply
 from weaver_console.feed import Feed
 from weaver_console.link import ELSEWHERE, Link
@@ -35,16 +38,32 @@ MOST_WAITING = 500
 
 SENDING_TIMEOUT = 20.0
 
+COMMAND_RATE, COMMAND_BURST = 30.0, 60.0
+"""Commands a second that one page may send in the long run, and at once: more than a hand on a slider."""
+
 
 class PageSession:
     """Runs in the event loop; `pick` and `show_legend` may be called from any thread."""
 
     def __init__(
-        self, *, page: str, scene_key: str, operator: str, link: Link, roster: Roster, desk: CommandDesk
+        self,
+        *,
+        page: str,
+        scene_key: str,
+        operator: str,
+        who: Identity,
+        still: Callable[[], Identity | None],
+        link: Link,
+        roster: Roster,
+        desk: CommandDesk,
     ) -> None:
         self.page = page
         self.scene_key = scene_key  # tells this page's 3-D view, which its sandbox leaves without a cookie
         self.operator = operator
+        self.over = False  # the login has expired, or the user is no more
+        self._who = who
+        self._still = still
+        self._limit = RateLimit(rate=COMMAND_RATE, burst=COMMAND_BURST, now=time.monotonic)
         self.scene: PageScene | None = None
         self.wishes: dict[str, object] = {}  # for a scene that is opened later
         self._link = link
@@ -74,6 +93,8 @@ class PageSession:
             "type": "hello",
             "page": self.page,
             "operator": self.operator,
+            "user": self._who.name,
+            "role": self._who.role,
             "version": version("weaver-hexapod"),
             "scene": f"/viser/{self.scene_key}/" if with_scene else None,
             "layers": list(LAYERS),
@@ -92,10 +113,20 @@ class PageSession:
             self._new = True
             self._wake.set()
 
+    def check_login(self) -> None:
+        """End the page of somebody who may be here no more; take note of another role."""
+        who = self._still()
+        if who is None:
+            self.over = True
+            self._wake.set()
+        elif who != self._who:
+            self._who = who
+            self.tell({"type": "role", "role": who.role})
+
     async def send(self, send_text: Callable[[str], Coroutine[Any, Any, None]]) -> None:
-        """Send batches until cancelled or until a batch is not taken for 20 s."""
+        """Send batches until cancelled, until the login ends, or until a batch is not taken for 20 s."""
         due = self._loop.time()
-        while True:
+        while not self.over:
             await self._until(due)
             messages = [self._waiting.popleft() for _ in range(len(self._waiting))]
             bulk = 0
@@ -194,7 +225,11 @@ class PageSession:
 
     def _command(self, request: p.CommandRequest) -> None:
         robot = self.robot if request.robot is None else request.robot
-        if robot is None:
+        if refusal := self._who.refusal(request.command):
+            self._refuse(request, robot or "", refusal)
+        elif request.command is not CommandName.STOP and not self._limit.spend(""):
+            self._refuse(request, robot or "", f"more than {COMMAND_RATE:.0f} commands a second; slow down")
+        elif robot is None:
             self._refuse(request, "", "no robot is selected")
         elif robot != self.robot and request.command is not CommandName.STOP:
             self._refuse(request, robot, f"{robot!r:.60} is not the selected robot; only a stop may go to another one")
@@ -220,7 +255,7 @@ class PageSession:
             return await self._desk.send(self.operator, robot, request)
 
     def _retain(self) -> None:
-        if self.robot is not None and not self._retaining:
+        if self.robot is not None and not self._retaining and self._who.operates:
             self._retaining = True
             self._spawn(self._send_retain(self.robot))
 
@@ -237,6 +272,8 @@ class PageSession:
     def _teleoperate(self, stick: p.Teleoperation) -> None:
         if self.robot is None:
             raise InputError("no robot is selected")
+        if not self._who.operates:
+            raise InputError(f"{self._who.name} is a viewer, who may watch and stop the robot; ask an operator")
         if not all(math.isfinite(value) and abs(value) <= 1.0 for value in (stick.forward, stick.left, stick.turn)):
             raise InputError("forward, left and turn are shares of the robot's limits, from -1 to 1")
         self._desk.teleoperate(self.operator, self.robot, stick)

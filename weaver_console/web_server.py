@@ -1,5 +1,7 @@
 """The HTTP server's settings, in one place for the program and its tests."""
 
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import uvicorn
@@ -7,9 +9,16 @@ import uvicorn
 from weaver_console.page_messages import LARGEST_FRAME
 
 
-def web_server(app: Any) -> uvicorn.Server:
+def web_server(
+    app: Any, *, trusted_proxies: Sequence[str] = (), certificate: Path | None = None, key: Path | None = None
+) -> uvicorn.Server:
+    """`trusted_proxies` are addresses or networks whose word counts for whom they forward and by which scheme."""
     config = uvicorn.Config(
         app,
+        proxy_headers=bool(trusted_proxies),
+        forwarded_allow_ips=list(trusted_proxies),
+        ssl_certfile=certificate,
+        ssl_keyfile=key,
         log_level="warning",
         ws="websockets-sansio",
         ws_max_size=LARGEST_FRAME,

@@ -78,7 +78,7 @@ def stage(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Stage]:
     robot = FullRobot(bus, ROBOT_ID, tmp_path_factory.mktemp("recordings"))
     listener = socket.create_server(("127.0.0.1", 0))
     data = tmp_path_factory.mktemp("data")
-    server = web_server(create_app(hub, Access(host="127.0.0.1", password=""), data=data))
+    server = web_server(create_app(hub, Access(host="127.0.0.1"), data=data))
     serving = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     serving.start()
     while not server.started:

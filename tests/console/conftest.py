@@ -18,8 +18,9 @@ import pytest
 from websockets.sync.client import ClientConnection, connect
 from wire_robot import WireRobot
 
-from weaver_console.access import Access
+from weaver_console.access import Access, Role, UserStore
 from weaver_console.app import create_app
+from weaver_console.database import Database
 from weaver_console.event_log import EventLog
 from weaver_console.hub import Hub
 from weaver_console.link import Link
@@ -93,19 +94,37 @@ class Page:
 class Console:
     """A console served on loopback from a thread, on a bus within the process."""
 
-    def __init__(self, bus: MemoryBus, folder: Path | None, *, password: str = "") -> None:
+    def __init__(
+        self,
+        bus: MemoryBus,
+        folder: Path | None,
+        *,
+        users: dict[str, Role] | None = None,
+        proxies: tuple[str, ...] = (),
+    ) -> None:
+        """Without `users` nobody needs to log in; their password is PASSWORD."""
         self.bus = bus
-        self.hub = Hub(Link(bus))
+        self.database = Database(None)
+        self.hub = Hub(Link(bus), database=self.database)
+        self.users = UserStore(self.database)
+        for name, role in (users or {}).items():
+            self.users.add(name, role, PASSWORD)
         self.data = Path(tempfile.mkdtemp(prefix="console-"))
         self._listener = socket.create_server(("127.0.0.1", 0))
         self.port: int = self._listener.getsockname()[1]
-        app = create_app(self.hub, Access(host="127.0.0.1", password=password), folder=folder, data=self.data)
-        self._server = web_server(app)
+        access = Access(host="127.0.0.1", database=self.database, guarded=users is not None)
+        self._server = web_server(create_app(self.hub, access, folder=folder, data=self.data), trusted_proxies=proxies)
         self._thread = threading.Thread(target=self._server.run, kwargs={"sockets": [self._listener]})
         self._thread.start()
         self.http = httpx.Client(base_url=f"http://127.0.0.1:{self.port}", trust_env=False)
         while not self._server.started:
             time.sleep(0.005)
+
+    def log_in(self, name: str) -> dict[str, str]:
+        """Headers by which this user is known from then on."""
+        answer = self.http.post("/api/login", json={"name": name, "password": PASSWORD})
+        self.http.cookies.clear()
+        return {"Cookie": answer.headers["set-cookie"].split(";")[0]}
 
     def connect(self, path: str, **options: Any) -> ClientConnection:
         return connect(f"ws://127.0.0.1:{self.port}{path}", proxy=None, compression=None, **options)
@@ -150,6 +169,6 @@ def console(bus: MemoryBus, page_folder: Path) -> Iterator[Console]:
 
 @pytest.fixture
 def guarded(bus: MemoryBus, page_folder: Path) -> Iterator[Console]:
-    console = Console(bus, page_folder, password=PASSWORD)
+    console = Console(bus, page_folder, users={"anna": Role.OPERATOR, "ben": Role.VIEWER, "ada": Role.ADMIN})
     yield console
     console.close()

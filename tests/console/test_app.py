@@ -6,7 +6,7 @@ import http.client
 from typing import Any
 
 import pytest
-from conftest import PASSWORD, Console, Page
+from conftest import Console, Page
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from wire_robot import WireRobot
 
@@ -63,41 +63,6 @@ def test_a_request_from_another_site_is_refused(console: Console):
         console.page(origin="http://evil.example")
     with pytest.raises(InvalidStatus):
         console.connect("/viser/page-0001/", origin="http://evil.example")
-
-
-def test_with_a_password_nothing_is_served_before_the_login(guarded: Console):
-    assert guarded.http.get("/api/robots").status_code == 401
-    assert guarded.http.get("/viser/page-0001/").status_code == 401
-    assert guarded.http.get("/assets/page-1.js").status_code == 401
-    front = guarded.http.get("/")
-    assert front.status_code == 401
-    assert "Password" in front.text
-    for path in ("/ws?page=page-0001", "/viser/page-0001/"):
-        with pytest.raises(InvalidStatus):
-            guarded.connect(path)
-    assert guarded.http.get("/api/health").status_code == 200
-
-
-def test_the_right_password_opens_everything(guarded: Console):
-    assert guarded.http.post("/api/login", json={"password": "wrong"}).status_code == 401
-    answer = guarded.http.post("/api/login", json={"password": PASSWORD})
-    assert answer.status_code == 200
-    assert "HttpOnly" in answer.headers["set-cookie"]
-    assert "SameSite=strict" in answer.headers["set-cookie"]
-    assert guarded.http.get("/api/robots").status_code == 200
-    cookie = answer.headers["set-cookie"].split(";")[0]
-    with guarded.page(additional_headers={"Cookie": cookie}) as socket:
-        assert Page(socket).hear("hello")["operator"] == "anna"
-
-
-def test_the_login_form_leads_to_the_page(guarded: Console):
-    answer = guarded.http.post("/api/login", data={"password": PASSWORD}, follow_redirects=False)
-    assert (answer.status_code, answer.headers["location"]) == (303, "/")
-
-
-@pytest.mark.parametrize("body", [b"", b"{", b"[]", b'{"password":1}', b'{"password":null}', b"[" * 5000, b"\xff"])
-def test_a_malformed_login_is_answered(guarded: Console, body: bytes):
-    assert guarded.http.post("/api/login", content=body).status_code == 422
 
 
 def test_a_page_takes_control_stands_and_sends_a_mission(console: Console, robot: WireRobot):

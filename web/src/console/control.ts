@@ -1,4 +1,5 @@
 /** What this page may do: whether it holds control, and whether the robot would accept a command now. */
+import { onlyWatching } from "../access/role";
 import type { CommandName } from "../protocol/messages";
 import { freshness, limitsOf } from "./freshness";
 import { type ConsoleState, latest, useConsole } from "./store";
@@ -24,6 +25,8 @@ export function holdsControl(state: ConsoleState): boolean {
 /** Why nothing at all can be asked of the robot now, in words; null when it can. */
 export function unreachable(state: ConsoleState): string | null {
   if (state.connection !== "open") return "the console is unreachable";
+  const watching = onlyWatching(state);
+  if (watching !== null) return watching;
   if (selectedRobot(state) === undefined) return "no robot is selected";
   if (selectedRobot(state)?.kind === "REPLAY") return "this is a recording, not a robot";
   if (selectedRobot(state)?.alive === false) return "the robot is silent";

@@ -14,6 +14,9 @@ export function receive(state: ConsoleState, messages: readonly Incoming[], now:
       case "hello":
         next.hello = message;
         break;
+      case "role":
+        if (next.hello !== null) next.hello = { ...next.hello, role: message.role };
+        break;
       case "robots":
         next.robots = message.robots;
         break;

@@ -1,10 +1,15 @@
 /** Frames of the page's socket (docs/console_protocol.md). */
 import type { CommandName, EventMessage, RobotKind, Waypoint } from "./messages";
 
+export type Role = "viewer" | "operator" | "admin";
+
 export interface Hello {
   type: "hello";
   page: string;
   operator: string;
+  /** Who has logged in, empty where nobody needs to. */
+  user: string;
+  role: Role;
   version: string;
   scene: string | null;
   layers: string[];
@@ -107,6 +112,7 @@ export type Incoming =
   | { type: "missed"; reason: string }
   | { type: "dragged"; index: number; x: number; y: number; z: number; done: boolean }
   | Legend
+  | { type: "role"; role: Role }
   | { type: "pong"; t: number }
   | { type: "error"; reason: string };
 

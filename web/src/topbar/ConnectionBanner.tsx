@@ -26,7 +26,8 @@ export function ConnectionBanner() {
     case "login":
       return (
         <p className="banner banner-danger" role="alert">
-          The console wants you to log in. <a href="/">Go to the login</a>
+          The console wants you to log in, as your time is up or your access has changed.{" "}
+          <a href="/">Go to the login</a>. The robot holds by itself when it loses its operator.
         </p>
       );
     case "lost":

@@ -1,6 +1,7 @@
 /** Who holds the robot, and how to take or give back control. */
 import { Button } from "@mantine/core";
 import { useState } from "react";
+import { onlyWatching } from "../access/role";
 import { command } from "../console/commands";
 import { expectRelease } from "../console/controlLoss";
 import { holder, holdsControl, selectedRobot } from "../console/control";
@@ -11,6 +12,7 @@ export function LeaseControl() {
   const held = useConsole(holdsControl);
   const owner = useConsole(holder);
   const robot = useConsole(selectedRobot);
+  const watching = useConsole(onlyWatching);
   const connected = useConsole((state) => state.connection === "open");
   const [asking, setAsking] = useState(false);
   const [waiting, setWaiting] = useState(false);
@@ -48,7 +50,8 @@ export function LeaseControl() {
         <Button
           size="xs"
           loading={waiting}
-          disabled={!connected || robot === undefined || !robot.alive}
+          disabled={!connected || robot === undefined || !robot.alive || watching !== null}
+          title={watching ?? undefined}
           onClick={() => (owner === "" ? void ask("take_control") : setAsking(true))}
         >
           Take control

@@ -1,4 +1,5 @@
 /** What an operator must see at every moment; it never scrolls away. */
+import { Account } from "../access/Account";
 import { selectedRobot } from "../console/control";
 import { useConsole } from "../console/store";
 import { ConnectionBanner } from "./ConnectionBanner";
@@ -22,6 +23,7 @@ export function TopBar() {
         <LeaseControl />
         <LinkReadings />
         <PowerReadings />
+        <Account />
         <ThemeToggle />
         <StopButton />
       </div>
