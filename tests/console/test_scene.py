@@ -176,10 +176,7 @@ def test_the_view_is_reached_through_the_console_with_its_own_subprotocol(consol
 
 
 def test_the_sandboxed_view_needs_no_cookie_but_its_own_secret(guarded: Console):
-    login = guarded.http.post("/api/login", json={"password": PASSWORD})
-    cookie = login.headers["set-cookie"].split(";")[0]
-    guarded.http.cookies.clear()
-    with guarded.page(additional_headers={"Cookie": cookie}) as socket:
+    with guarded.page(additional_headers=guarded.log_in("anna")) as socket:
         scene = Page(socket).hear("hello")["scene"]
         assert guarded.http.get(scene, headers={"origin": "null"}).status_code == 200
         assert guarded.http.get(scene, headers={"origin": "http://evil.example"}).status_code == 403
