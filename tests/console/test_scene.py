@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import PASSWORD, Console, Field, Page
+from conftest import Console, Field, Page
 from hypothesis import given
 from hypothesis import strategies as st
 from websockets.exceptions import InvalidStatus
