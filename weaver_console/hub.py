@@ -18,6 +18,7 @@ from weaver_console.access import OPEN, Identity
 from weaver_console.command_desk import CommandDesk
 from weaver_console.database import Database
 from weaver_console.event_archive import EventArchive
+from weaver_console.handover import Handover
 from weaver_console.link import Link
 from weaver_console.missions import MissionStore
 from weaver_console.page_session import PageSession
@@ -62,6 +63,7 @@ class Hub:
         self.with_scenes = scenes
         self.started = time.monotonic()
         self._desk = CommandDesk(link)
+        self._handover = Handover(link)
         self._random = random_source or random.Random()
         self._secret = secrets.token_bytes(32)
         self._sessions: dict[str, PageSession] = {}
@@ -94,6 +96,7 @@ class Hub:
             self.roster.refresh()
             self._close_orphans()
             self._end_expired()
+            self._handover.check()
             if self.archive.behind:
                 await asyncio.to_thread(self.archive.flush)
             await asyncio.sleep(CHECK_PERIOD)
@@ -134,14 +137,19 @@ class Hub:
             link=self.link,
             roster=self.roster,
             desk=self._desk,
+            handover=self._handover,
         )
+        if (former := self._sessions.get(page)) is not None:
+            self._handover.leave(former)
         self._sessions[page] = session
+        self._handover.enter(session)
         self._orphaned.pop(page, None)
         session.greet(with_scene=self.with_scenes)
         return session
 
     def leave(self, session: PageSession) -> None:
         session.end()
+        self._handover.leave(session)
         if self._sessions.get(session.page) is session:
             del self._sessions[session.page]
             self._orphaned[session.page] = time.monotonic()

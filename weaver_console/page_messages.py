@@ -66,6 +66,15 @@ class Watch(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="wa
     cameras: bool
 
 
+class AskForControl(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="ask_for_control"):
+    reason: str = ""
+
+
+class AnswerRequest(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="answer_request"):
+    asker: str
+    grant: bool
+
+
 class Ping(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="ping"):
     t: float
 
@@ -74,7 +83,20 @@ class Taken(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="ta
     """The page has taken in one more frame."""
 
 
-PageMessage = Select | CommandRequest | Retain | Teleoperation | Draft | ChooseLayer | View | Watch | Ping | Taken
+PageMessage = (
+    AskForControl
+    | AnswerRequest
+    | Select
+    | CommandRequest
+    | Retain
+    | Teleoperation
+    | Draft
+    | ChooseLayer
+    | View
+    | Watch
+    | Ping
+    | Taken
+)
 
 _decoder: msgspec.json.Decoder[Any] = msgspec.json.Decoder(PageMessage)
 

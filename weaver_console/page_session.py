@@ -18,6 +18,7 @@ from weaver_console.access import Identity
 from weaver_console.access.rate_limit import RateLimit
 from weaver_console.command_desk import CommandDesk, Reply
 from weaver_console.feed import Feed
+from weaver_console.handover import Handover
 from weaver_console.link import ELSEWHERE, Link
 from weaver_console.pace import Pace
 from weaver_console.plain import to_json
@@ -56,6 +57,7 @@ class PageSession:
         link: Link,
         roster: Roster,
         desk: CommandDesk,
+        handover: Handover,
     ) -> None:
         self.page = page
         self.scene_key = scene_key  # tells this page's 3-D view, which its sandbox leaves without a cookie
@@ -68,6 +70,7 @@ class PageSession:
         self.wishes: dict[str, object] = {}  # for a scene that is opened later
         self._link = link
         self._desk = desk
+        self._handover = handover
         self._feed = Feed(link, roster)
         self._pace = Pace()
         self._waiting: deque[bytes] = deque(maxlen=MOST_WAITING)
@@ -200,6 +203,11 @@ class PageSession:
                               if (value := getattr(message, name)) is not None})  # fmt: skip
             case p.Watch():
                 self._feed.cameras = message.cameras
+            case p.AskForControl():
+                self._require_operator()
+                self._handover.ask(self, message.reason)
+            case p.AnswerRequest():
+                self._handover.answer(self, message.asker, message.grant)
             case p.Ping():
                 self.tell({"type": "pong", "t": message.t})
             case p.Taken():
@@ -272,11 +280,19 @@ class PageSession:
     def _teleoperate(self, stick: p.Teleoperation) -> None:
         if self.robot is None:
             raise InputError("no robot is selected")
-        if not self._who.operates:
-            raise InputError(f"{self._who.name} is a viewer, who may watch and stop the robot; ask an operator")
+        self._require_operator()
         if not all(math.isfinite(value) and abs(value) <= 1.0 for value in (stick.forward, stick.left, stick.turn)):
             raise InputError("forward, left and turn are shares of the robot's limits, from -1 to 1")
         self._desk.teleoperate(self.operator, self.robot, stick)
+
+    def _require_operator(self) -> None:
+        if refusal := self._who.refusal(CommandName.TAKE_CONTROL):
+            raise InputError(refusal)
+
+    def take_granted(self, robot: str, reason: str) -> None:
+        """Take control of a robot whose holder has handed it over."""
+        request = p.CommandRequest(id="", command=CommandName.TAKE_CONTROL, reason=reason)
+        self._spawn(self._send(request, robot, None))
 
     def _wish_draft(self, draft: p.Draft) -> None:
         self._wish(draft=tuple(Waypoint(x=place.x, y=place.y) for place in draft.waypoints), selected=draft.selected)

@@ -48,10 +48,20 @@ export function react(message: Incoming, now: number): void {
     case "dragged":
       useDraft.getState().drag(message.index, { x: message.x, y: message.y }, message.done);
       break;
+    case "asked":
+      notify("warning", `${message.asker} asks for control. Hand over or decline at the top of the page.`);
+      break;
+    case "request":
+      if (message.state !== "over") notify(message.state === "granted" ? "info" : "warning", `${sentence(message.text)}.`);
+      break;
     case "error":
       notify("error", message.reason);
       break;
   }
+}
+
+function sentence(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 function keep(key: string, value: unknown, received: number): void {

@@ -1,5 +1,5 @@
 /** What each message of the console does to the store. Pure: the clock is an argument. */
-import type { Incoming, LogEntry } from "../protocol/wire";
+import type { ControlRequest, Incoming, LogEntry } from "../protocol/wire";
 import type { ConsoleState, Stamped } from "./store";
 
 const LOG_LENGTH = 300;
@@ -13,9 +13,20 @@ export function receive(state: ConsoleState, messages: readonly Incoming[], now:
     switch (message.type) {
       case "hello":
         next.hello = message;
+        next.requests = [];
+        next.asking = null;
         break;
       case "role":
         if (next.hello !== null) next.hello = { ...next.hello, role: message.role };
+        break;
+      case "asked":
+        next.requests = [...others(next.requests, message), message];
+        break;
+      case "asked_no_more":
+        next.requests = others(next.requests, message);
+        break;
+      case "request":
+        next.asking = message.state === "waiting" ? message : null;
         break;
       case "robots":
         next.robots = message.robots;
@@ -67,6 +78,10 @@ export function delay({ roundTrip }: Pick<ConsoleState, "roundTrip">): number {
 /** Whether `key` is one of `patterns`, each a key or a prefix followed by a star. */
 export function matches(key: string, patterns: readonly string[]): boolean {
   return patterns.some((pattern) => (pattern.endsWith("*") ? key.startsWith(pattern.slice(0, -1)) : key === pattern));
+}
+
+function others(requests: readonly ControlRequest[], one: { robot: string; asker: string }): ControlRequest[] {
+  return requests.filter((request) => request.robot !== one.robot || request.asker !== one.asker);
 }
 
 function forget(values: Record<string, unknown>, patterns: readonly string[]): void {

@@ -18,7 +18,7 @@ import type {
   RobotState,
   TruthState,
 } from "../protocol/messages";
-import type { Hello, Legend, LinkReport, LogEntry, RobotEntry } from "../protocol/wire";
+import type { ControlRequest, Hello, Legend, LinkReport, LogEntry, RequestState, RobotEntry } from "../protocol/wire";
 
 /** What travels under which key; health and pictures come under one key per process and camera. */
 export interface Topics {
@@ -72,6 +72,10 @@ export interface ConsoleState {
   roundTripReceived: number;
   /** Seconds there and back, page to robot, of the last answered command. */
   commandRoundTrip: number | null;
+  /** Operators who ask this page for control. */
+  requests: readonly ControlRequest[];
+  /** This page's own request for control, while it waits. */
+  asking: RequestState | null;
   notices: readonly Notice[];
   /** A stop that could not be sent yet. */
   stopPending: boolean;
@@ -93,6 +97,8 @@ export const INITIAL: ConsoleState = {
   roundTrip: null,
   roundTripReceived: 0,
   commandRoundTrip: null,
+  requests: [],
+  asking: null,
   notices: [],
   stopPending: false,
   now: 0,

@@ -98,6 +98,24 @@ export interface Legend {
   unknown: string;
 }
 
+/** Another operator asks this page for control. */
+export interface ControlRequest {
+  type: "asked";
+  robot: string;
+  asker: string;
+  reason: string;
+  answer_within_s: number;
+}
+
+/** What has become of this page's own request. */
+export interface RequestState {
+  type: "request";
+  robot: string;
+  holder: string;
+  state: "waiting" | "granted" | "declined" | "unanswered" | "lost" | "over";
+  text: string;
+}
+
 export type Incoming =
   | Hello
   | { type: "robots"; robots: RobotEntry[] }
@@ -113,6 +131,9 @@ export type Incoming =
   | { type: "dragged"; index: number; x: number; y: number; z: number; done: boolean }
   | Legend
   | { type: "role"; role: Role }
+  | ControlRequest
+  | { type: "asked_no_more"; robot: string; asker: string }
+  | RequestState
   | { type: "pong"; t: number }
   | { type: "error"; reason: string };
 
@@ -129,6 +150,8 @@ export type Outgoing =
   | { type: "select"; robot: string | null }
   | ({ type: "command"; id: string; command: CommandName } & CommandFields)
   | { type: "retain" }
+  | { type: "ask_for_control"; reason: string }
+  | { type: "answer_request"; asker: string; grant: boolean }
   | { type: "teleop"; forward: number; left: number; turn: number; dead_man: boolean }
   | { type: "draft"; waypoints: readonly Waypoint[]; selected: number | null }
   | { type: "layer"; name: string }

@@ -6,6 +6,7 @@ import { command } from "../console/commands";
 import { expectRelease } from "../console/controlLoss";
 import { holder, holdsControl, selectedRobot } from "../console/control";
 import { useConsole } from "../console/store";
+import { AskButton } from "./AskButton";
 import { TakeOverDialog } from "./TakeOverDialog";
 
 export function LeaseControl() {
@@ -57,6 +58,7 @@ export function LeaseControl() {
           Take control
         </Button>
       )}
+      <AskButton owner={owner} held={held} />
       <TakeOverDialog
         opened={asking}
         owner={owner}

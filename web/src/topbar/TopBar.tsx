@@ -3,6 +3,7 @@ import { Account } from "../access/Account";
 import { selectedRobot } from "../console/control";
 import { useConsole } from "../console/store";
 import { ConnectionBanner } from "./ConnectionBanner";
+import { ControlRequests } from "./ControlRequests";
 import { KIND_CLASS, bannerText } from "./kinds";
 import { LeaseControl } from "./LeaseControl";
 import { LinkReadings } from "./LinkReadings";
@@ -35,6 +36,7 @@ export function TopBar() {
           {robot.conflict}
         </p>
       )}
+      <ControlRequests />
       <ConnectionBanner />
     </header>
   );
