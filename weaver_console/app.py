@@ -24,6 +24,7 @@ from weaver_console.hub import Hub
 from weaver_console.login_api import add_login, add_user_api
 from weaver_console.mission_api import add_mission_api
 from weaver_console.page_session import PageSession
+from weaver_console.png import png
 from weaver_console.rerun_viewer import add_rerun
 from weaver_console.robot_files import add_robot_files
 from weaver_console.roster import describe
@@ -178,6 +179,16 @@ def _add_pages(app: FastAPI, hub: Hub, folder: Path | None) -> None:
         if view is not None:
             view.thrifty = True
         return Response(status_code=204)
+
+    @app.get("/viser/{key}/picture")
+    async def picture(key: str, width: Annotated[int, Query(ge=64, le=3840)] = 1280,
+                      height: Annotated[int, Query(ge=64, le=2160)] = 720) -> Response:  # fmt: skip
+        page = hub.page_of(key)
+        view = hub.scene(page) if page is not None else None
+        pixels = await asyncio.to_thread(view.picture, height, width) if view is not None else None
+        if pixels is None:
+            return JSONResponse({"error": "the 3-D view gave no picture"}, status_code=404)
+        return Response(await asyncio.to_thread(png, pixels), media_type="image/png")
 
     @app.get("/{path:path}")
     async def built(path: str) -> Response:

@@ -172,6 +172,7 @@ class Hub:
             scene = PageScene(
                 self._store,
                 on_pick=lambda point: self._tell(page, "pick", point),
+                on_drag=lambda index, point, done: self._tell(page, "drag", index, point, done),
                 on_legend=lambda scale: self._tell(page, "show_legend", scale),
             )
             self._scenes[page] = scene

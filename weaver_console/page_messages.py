@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
 
@@ -60,6 +60,14 @@ class View(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="vie
     truth: bool | None = None
     frusta: bool | None = None
     trail: bool | None = None
+    contours: bool | None = None
+    torques: bool | None = None
+
+
+class Measure(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="measure"):
+    """The places that are measured between, in world."""
+
+    places: Annotated[list[Place], msgspec.Meta(max_length=2)]
 
 
 class Watch(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="watch"):
@@ -93,6 +101,7 @@ PageMessage = (
     | Draft
     | ChooseLayer
     | View
+    | Measure
     | Watch
     | Ping
     | Taken

@@ -177,6 +177,12 @@ class PageSession:
             message = {"type": "picked", "x": x, "y": y, "z": z}
         self._loop.call_soon_threadsafe(self.tell, message)
 
+    def drag(self, index: int, point: NDArray[np.float64], done: bool) -> None:
+        """A waypoint in hand in this page's scene, from viser's thread."""
+        x, y, z = (round(float(value), 4) for value in point)
+        message: dict[str, object] = {"type": "dragged", "index": index, "x": x, "y": y, "z": z, "done": done}
+        self._loop.call_soon_threadsafe(self.tell, message)
+
     def show_legend(self, scale: Legend) -> None:
         self._loop.call_soon_threadsafe(self.tell, scale.to_page())
 
@@ -199,8 +205,10 @@ class PageSession:
             case p.ChooseLayer():
                 self._choose_layer(message.name)
             case p.View():
-                self._wish(**{name: value for name in ("follow", "truth", "frusta", "trail")
+                self._wish(**{name: value for name in message.__struct_fields__
                               if (value := getattr(message, name)) is not None})  # fmt: skip
+            case p.Measure():
+                self._wish(measure=tuple(Waypoint(x=place.x, y=place.y) for place in message.places))
             case p.Watch():
                 self._feed.cameras = message.cameras
             case p.AskForControl():

@@ -142,7 +142,7 @@ def visit(chromium: Callable[..., Any], stage: Stage) -> Iterator[Callable[..., 
             viewport={"width": size[0], "height": size[1]}, **{"color_scheme": "light", **settings}
         )
         contexts.append(context)
-        context.add_init_script(f"localStorage.setItem('weaver.operator', '{name}')")
+        context.add_init_script(f"if (window === top) localStorage.setItem('weaver.operator', '{name}')")
         if not scene:
             context.add_init_script(WITHOUT_WEBGL)
         visitor = Visitor(context.new_page())

@@ -136,7 +136,7 @@ def test_what_is_no_message_is_answered_and_the_page_stays(console: Console, rob
         socket.send(b"\x00\xff")
         assert "understood" in page.hear("error")["reason"]
         page.say(type="layer", name="gold")
-        assert "elevation, roughness, step_height, age" in page.hear("error")["reason"]
+        assert "elevation, roughness, step_height, uncertainty, age" in page.hear("error")["reason"]
         page.say(type="select", robot="ghost")
         assert "known are weaver" in page.hear("error")["reason"]
         page.say(type="teleop", forward=2.0, left=0.0, turn=0.0, dead_man=True)

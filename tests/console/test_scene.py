@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 import dataclasses
+import io
 import re
 from collections.abc import Iterator
 from itertools import pairwise
@@ -14,9 +16,15 @@ import pytest
 from conftest import Console, Field, Page
 from hypothesis import given
 from hypothesis import strategies as st
+from PIL import Image
 from websockets.exceptions import InvalidStatus
 from wire_robot import STANDING, ground_height
 
+from weaver_console.png import png
+from weaver_console.scene.contours import INTERVAL, contours
+from weaver_console.scene.contours import LIFT as CONTOUR_LIFT
+from weaver_console.scene.layers import TRANSPORT
+from weaver_console.scene.mission_figure import TOP
 from weaver_console.scene.motion_figure import _closed_hull
 from weaver_console.scene.page_scene import PageScene
 from weaver_console.scene.robot_figure import _segments, _turn_z_to
@@ -24,7 +32,7 @@ from weaver_console.scene.shapes import octasphere, prism
 from weaver_console.scene.terrain_figure import TILES_AN_UPDATE, MeshStore
 from weaver_console.scene_page import scene_page
 from weaver_shared import topics
-from weaver_shared.messages import Waypoint
+from weaver_shared.messages import CameraPicture, PowerState, Waypoint
 from weaver_shared.robots import load_robot
 from weaver_shared.robots.forward_kinematics import joint_frames_in_body
 from weaver_shared.transforms import rotation_from_wxyz
@@ -35,6 +43,7 @@ class View:
     scene: PageScene
     picks: list[Any]
     legends: list[Any]
+    drags: list[Any]
 
     def node(self, name: str) -> Any:
         return self.scene._server.scene._handle_from_node_name[name]
@@ -47,8 +56,14 @@ class View:
 def view() -> Iterator[View]:
     picks: list[Any] = []
     legends: list[Any] = []
-    scene = PageScene(MeshStore(), on_pick=picks.append, on_legend=legends.append)
-    yield View(scene=scene, picks=picks, legends=legends)
+    drags: list[Any] = []
+    scene = PageScene(
+        MeshStore(),
+        on_pick=picks.append,
+        on_drag=lambda index, place, done: drags.append((index, place, done)),
+        on_legend=legends.append,
+    )
+    yield View(scene=scene, picks=picks, legends=legends, drags=drags)
     scene.close()
 
 
@@ -124,6 +139,124 @@ def test_the_draft_is_drawn_until_the_robot_has_it(field: Field, view: View):
     view.scene.update(record)
     assert not view.names("/world/mission/draft/")
     assert "/world/mission/mission/circles" in view.names("/world/mission/")
+
+
+def test_a_waypoint_in_hand_stays_the_same_while_its_path_follows(field: Field, view: View):
+    robot = field.robot()
+    robot.publish_map(2)
+    field.forward(robot, 0.1)
+    record = field.link.robot("weaver")
+    view.scene.propose([Waypoint(x=0.5, y=0.1), Waypoint(x=0.9, y=0.1)], None)
+    view.scene.update(record)
+    ball = view.node("/world/mission/draft/balls")
+    corridor = np.array(view.node("/world/mission/draft/corridor").points)
+    view.scene.propose([Waypoint(x=0.5, y=0.1), Waypoint(x=0.9, y=0.5)], 1)
+    view.scene.update(record)
+    assert view.node("/world/mission/draft/balls") is ball
+    assert ball.batched_positions[1][1] == pytest.approx(0.5)
+    assert corridor[..., 1].min() < 0.0
+    assert corridor[..., 1].max() > 0.2
+    assert not np.array_equal(view.node("/world/mission/draft/corridor").points, corridor)
+    view.scene.propose([Waypoint(x=0.5, y=0.1)], None)
+    view.scene.update(record)
+    assert view.node("/world/mission/draft/balls") is not ball
+
+
+def test_a_dragged_waypoint_is_told_where_the_hand_points_on_the_ground(field: Field, view: View):
+    robot = field.robot()
+    robot.publish_map(2)
+    field.forward(robot, 0.1)
+    view.scene.update(field.link.robot("weaver"))
+    eye = (-1.0, 0.0, 1.5)
+    client = SimpleNamespace(camera=SimpleNamespace(position=eye))
+    for phase, x in (("start", 0.3), ("update", 0.4), ("update", 0.6), ("end", 0.6)):
+        place = np.array([x, 0.2, float(ground_height(np.array([x]), np.array([0.2]))[0])]) + TOP
+        held = np.array(eye) + 0.7 * (place - np.array(eye))  # somewhere on the line of sight
+        event = SimpleNamespace(phase=phase, end_position=tuple(held), instance_index=3, client=client)
+        asyncio.run(view.scene._dragged(event))
+    assert [(index, round(float(place[0]), 1), done) for index, place, done in view.drags] == [
+        (3, 0.4, False),
+        (3, 0.6, False),
+        (3, 0.6, True),
+    ]
+
+
+def test_what_is_optional_is_drawn_when_it_is_wanted(field: Field, view: View):
+    robot = field.robot()
+    robot.publish_map(1)
+    field.forward(robot, 0.1)
+    record = field.link.robot("weaver")
+    picture = CameraPicture(stamp_ns=1, name="left", jpeg=b"a jpeg")
+    field.bus.publish("weaver", topics.CAMERA, picture, name="left")
+    view.scene.wish(frusta=False)
+    view.scene.update(record)
+    assert not view.names("/world/contours/")
+    usual = np.array(view.node("/world/robot/joints").batched_colors)
+    view.scene.wish(contours=True, torques=True, frusta=True, measure=(Waypoint(x=0.1, y=0.0), Waypoint(x=0.4, y=0.4)))
+    field.forward(robot, 0.02)
+    view.scene.update(record)
+    lines = np.array(view.node("/world/contours/0_0").points)
+    level = (lines[..., 2] - CONTOUR_LIFT) / INTERVAL
+    assert np.allclose(level, np.round(level), atol=1e-4)
+    assert len({tuple(colour) for colour in view.node("/world/robot/joints").batched_colors}) > 3
+    assert view.node("/world/robot/left_eye")._image_data == b"a jpeg"
+    assert view.node("/world/measure/label").text.startswith("0.50 m, ")
+    view.scene.wish(contours=False, torques=False, measure=())
+    field.forward(robot, 0.02)
+    view.scene.update(record)
+    assert not view.node("/world/contours/0_0").visible
+    assert np.array_equal(view.node("/world/robot/joints").batched_colors, usual)
+    assert not view.node("/world/measure/label").visible
+
+
+def test_the_mass_hangs_over_its_margin(field: Field, view: View):
+    robot = field.robot()
+    field.forward(robot, 0.1)
+    view.scene.update(field.link.robot("weaver"))
+    mass, edge = view.node("/world/motion/balance/mass"), view.node("/world/motion/balance/margin").points[0]
+    assert mass.visible
+    assert np.allclose(edge[0][:2], mass.position[:2], atol=1e-6)
+    assert view.node("/world/motion/balance/label").text == "0.08 m"
+
+
+def test_the_trail_tells_what_the_way_cost(field: Field, view: View):
+    robot = field.robot()
+    field.forward(robot, 0.1)
+    record = field.link.robot("weaver")
+    for step, cost in enumerate((float("nan"), 2.0, 20.0)):
+        robot.place = np.array([0.1 * step, 0.0])
+        field.forward(robot, 0.02)
+        power = dataclasses.replace(record.newest("tele/power", PowerState), cost_of_transport=cost)
+        field.bus.publish("weaver", topics.POWER, power)
+        view.scene.update(record)
+    colours = np.array(view.node("/world/motion/trail").colors)
+    assert np.array_equal(colours[:, 0], TRANSPORT.colours(np.array([2.0, 20.0])))
+
+
+@given(st.lists(st.floats(-0.2, 0.2), min_size=16, max_size=16))
+def test_contours_lie_on_the_ground_at_whole_intervals(heights: list[float]):
+    rows, columns = np.indices((4, 4)) * 0.1
+    lines = contours(np.stack([rows, columns, np.array(heights).reshape(4, 4)], axis=-1), 0.05)
+    assert np.isfinite(lines).all()
+    level = (lines[..., 2] - CONTOUR_LIFT) / 0.05
+    assert np.allclose(level, np.round(level), atol=1e-6)
+    assert (lines[..., :2] >= -1e-9).all()
+    assert (lines[..., :2] <= 0.3 + 1e-9).all()
+
+
+def test_a_hill_has_one_closed_line_a_level():
+    rows, columns = np.indices((41, 41)) * 0.05 - 1.0
+    lines = contours(np.stack([rows, columns, np.maximum(0.117 - 0.1 * np.hypot(rows, columns), 0.03)], axis=-1), 0.05)
+    ends = np.round(lines.reshape(-1, 3), 6)
+    _, counts = np.unique(ends, axis=0, return_counts=True)
+    assert (counts % 2 == 0).all()  # every end is where another segment begins
+    radius = (0.117 - (ends[:, 2] - CONTOUR_LIFT)) / 0.1
+    assert np.allclose(np.hypot(ends[:, 0], ends[:, 1]), radius, atol=0.02)
+
+
+def test_a_picture_is_read_back_as_it_was():
+    pixels = np.random.default_rng(1).integers(0, 256, (7, 5, 3), dtype=np.uint8)
+    assert np.array_equal(np.array(Image.open(io.BytesIO(png(pixels)))), pixels)
 
 
 def test_a_restarted_robot_leaves_nothing_of_its_old_map(field: Field, view: View):

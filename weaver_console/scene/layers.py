@@ -13,7 +13,7 @@ from weaver_shared.messages import MapTile
 
 Array = NDArray[np.float64]
 
-LAYERS = ("elevation", "roughness", "step_height", "age")
+LAYERS = ("elevation", "roughness", "step_height", "uncertainty", "age")
 UNKNOWN_COLOUR = "#3a3f46"
 SHADES = 1024
 """Colours told apart on a scale: more than a screen does."""
@@ -85,6 +85,8 @@ def legend(layer: str, elevation_range: tuple[float, float] | None = None) -> Le
         return Legend(layer=layer, label="Roughness", unit="0 to 1", stops=_spread(0.0, 1.0, _HEAT))
     if layer == "step_height":
         return Legend(layer=layer, label="Step height", unit="0 to 1", stops=_spread(0.0, 1.0, _VIRIDIS))
+    if layer == "uncertainty":
+        return Legend(layer=layer, label="Uncertainty", unit="m", stops=_spread(0.0, 0.06, _VIRIDIS[::-1]))
     if layer == "age":
         return Legend(layer=layer, label="Age", unit="s", stops=_spread(0.0, 254.0, _FADE))
     raise ValueError(f"layer {layer!r} is unknown; known are {', '.join(LAYERS)}")
@@ -94,10 +96,28 @@ def layer_values(tile: MapTile, layer: str) -> Array:
     """Values (size, size) of a layer in its legend's unit, NaN where unknown."""
     if layer == "elevation":
         return np.where(tile.elevation_mm == UNKNOWN_MM, np.nan, tile.elevation_mm * 1e-3)
+    if layer == "uncertainty":
+        return np.where(tile.sigma_mm == 255, np.nan, tile.sigma_mm * 1e-3)
     if layer == "age":
         return np.where(tile.age_s == 255, np.nan, tile.age_s.astype(np.float64))
     indices = tile.roughness if layer == "roughness" else tile.step_height
     return np.where(indices == 255, np.nan, np.minimum(indices, 200) / 200.0)
+
+
+TRANSPORT = Legend(
+    layer="transport",
+    label="Cost of transport",
+    unit="",
+    stops=((2.0, "#2c6e63"), (6.0, "#a3bd5c"), (10.0, "#e3d35f"), (15.0, "#d96c3c"), (20.0, "#b03034")),
+)
+"""The trail's scale: energy over weight and way (ICRA'17 eq. 12)."""
+
+TORQUE = Legend(
+    layer="torque",
+    label="Joint torque",
+    unit="of stall",
+    stops=((0.0, "#2c3038"), (0.25, "#3d6fa5"), (0.5, "#e3d35f"), (0.8, "#d96c3c"), (1.0, "#d01c1c")),
+)
 
 
 def _spread(low: float, high: float, colours: tuple[str, ...]) -> tuple[tuple[float, str], ...]:

@@ -26,6 +26,12 @@ class Lines:
         """One line through points (n, 3)."""
         self.show(chained(points))
 
+    def show_in(self, segments: Array, colours: NDArray[np.uint8]) -> None:
+        """Segments (n, 2, 3), each in a colour of its own (n, 3)."""
+        if len(segments):
+            self._node.points, self._node.colors = segments.astype(np.float32), np.repeat(colours[:, None], 2, axis=1)
+        self._node.visible = len(segments) > 0
+
     def colour(self, colour: tuple[int, int, int]) -> None:
         self._node.colors = np.array(colour, dtype=np.uint8)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Coroutine, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weaver_console.scene.ground import Ground
-from weaver_console.scene.lines import Lines, chained
+from weaver_console.scene.lines import NONE, Lines, chained
 from weaver_console.scene.shapes import octasphere, prism, upright
 from weaver_shared.messages import Waypoint
 
@@ -63,16 +63,42 @@ class Course:
         return np.array([_REACHED if n < self.reached else c for n, c in enumerate(chosen)], dtype=np.uint8)
 
 
+@dataclass(slots=True, kw_only=True)
+class _Drawn:
+    """The nodes of a course, moved as long as it keeps its number of waypoints: one being dragged stays in hand."""
+
+    root: Any
+    poles: Any
+    balls: Any
+    labels: list[Any]
+    circles: Lines
+    path: Lines
+    corridor: Lines
+
+
 class MissionFigure:
     """Draws a course anew only when it or the ground under its waypoints changes; the leg ahead follows the robot."""
 
-    def __init__(self, scene: Any, name: str, *, passing_radius: float, goal_radius: float) -> None:
-        """Circles about waypoints have the radius, in m, within which the robot passes them or has arrived."""
+    def __init__(
+        self,
+        scene: Any,
+        name: str,
+        *,
+        passing_radius: float,
+        goal_radius: float,
+        half_width: float,
+        on_drag: Callable[[Any], Coroutine[Any, Any, None]] | None = None,
+    ) -> None:
+        """Circles about waypoints have the radius, in m, within which the robot passes them or has arrived; the feet
+        are expected within `half_width` (m) of the path. `on_drag` is told of every waypoint in hand, by viser."""
+        self._half_width = half_width
+        self._on_drag = on_drag
         self._scene = scene
         self._name = name
         self._passing_radius, self._goal_radius = passing_radius, goal_radius
-        self._drawn: dict[str, tuple[object, Any]] = {}
+        self._drawn: dict[str, tuple[object, _Drawn | None]] = {}
         self._leg = Lines(scene, f"{name}/leg", _SENT, thickness=0.012)
+        self._leg_corridor = Lines(scene, f"{name}/leg corridor", _SENT, thickness=0.005)
         self._leg_shown: object = None
 
     def update(self, ground: Ground, robot_position: Array | None, mission: Course, draft: Course) -> None:
@@ -86,45 +112,69 @@ class MissionFigure:
     def _update(self, ground: Ground, course: Course) -> None:
         heights = [_height(ground, *place) for place in course.places]
         wanted = (course, [round(height / 0.02) for height in heights])
-        shown, node = self._drawn.get(course.kind, (None, None))
+        shown, drawn = self._drawn.get(course.kind, (None, None))
         if wanted == shown:
             return
-        if node is not None:
-            node.remove()
-        self._drawn[course.kind] = (wanted, self._draw(ground, course, heights) if course.waypoints else None)
+        if drawn is not None and len(drawn.labels) != len(course.waypoints):
+            drawn.root.remove()
+            drawn = None
+        if course.waypoints:
+            feet = np.column_stack([np.array(course.places), heights])
+            drawn = drawn or self._add(course, feet)
+            self._place(drawn, ground, course, feet)
+        self._drawn[course.kind] = (wanted, drawn)
 
-    def _draw(self, ground: Ground, course: Course, heights: list[float]) -> Any:
-        name = f"{self._name}/{course.kind}"
-        root = self._scene.add_frame(name, show_axes=False)
-        feet = np.column_stack([np.array(course.places), heights])
-        self._add_marks(name, feet, course.shades)
+    def _add(self, course: Course, feet: Array) -> _Drawn:
+        scene, name, count = self._scene, f"{self._name}/{course.kind}", len(feet)
+        plain = {"lod": "off", "cast_shadow": False, "receive_shadow": False}
+        root = scene.add_frame(name, show_axes=False)
+        poles = scene.add_batched_meshes_simple(
+            f"{name}/poles", *prism(), upright(count), feet + 0.5 * TOP,
+            batched_scales=np.tile(POLE, (count, 1)), batched_colors=course.shades, **plain,
+        )  # fmt: skip
+        balls = scene.add_batched_meshes_simple(
+            f"{name}/balls", *octasphere(), upright(count), feet + TOP,
+            batched_scales=np.full(count, BALL_RADIUS), batched_colors=course.shades, **plain,
+        )  # fmt: skip
+        if self._on_drag is not None:
+            balls.on_drag("left")(self._on_drag)
+        labels = [
+            scene.add_label(f"{name}/label {n}", str(n + 1), position=foot + 1.25 * TOP, anchor="bottom-center")
+            for n, foot in enumerate(feet)
+        ]
+        return _Drawn(
+            root=root,
+            poles=poles,
+            balls=balls,
+            labels=labels,
+            circles=Lines(scene, f"{name}/circles", course.colour, thickness=0.012),
+            path=Lines(scene, f"{name}/path", course.colour, thickness=0.012),
+            corridor=Lines(scene, f"{name}/corridor", course.colour, thickness=0.005),
+        )
+
+    def _place(self, drawn: _Drawn, ground: Ground, course: Course, feet: Array) -> None:
+        shades = course.shades
+        drawn.poles.batched_positions, drawn.poles.batched_colors = feet + 0.5 * TOP, shades
+        drawn.balls.batched_positions, drawn.balls.batched_colors = feet + TOP, shades
+        for label, foot in zip(drawn.labels, feet, strict=True):
+            label.position = foot + 1.25 * TOP
         radii = [self._passing_radius] * (len(feet) - 1) + [self._goal_radius]
         circles = [chained(_circle(ground, foot, radius)) for foot, radius in zip(feet, radii, strict=True)]
-        self._add_lines(f"{name}/circles", np.concatenate(circles), np.repeat(course.shades, len(CIRCLE) - 1, axis=0))
+        drawn.circles.show_in(np.concatenate(circles), np.repeat(shades, len(CIRCLE) - 1, axis=0))
         ahead = course.places[course.reached :]
-        if len(ahead) > 1:
-            path = chained(_draped(ground, ahead))
-            self._add_lines(f"{name}/path", path, np.tile(np.array(course.colour, dtype=np.uint8), (len(path), 1)))
-        return root
+        path = chained(_draped(ground, ahead)) if len(ahead) > 1 else NONE
+        drawn.path.show_in(path, np.tile(np.array(course.colour, dtype=np.uint8), (len(path), 1)))
+        drawn.corridor.show(self._corridor(ground, ahead))
 
-    def _add_marks(self, name: str, feet: Array, shades: NDArray[np.uint8]) -> None:
-        count, plain = len(feet), {"lod": "off", "cast_shadow": False, "receive_shadow": False}
-        self._scene.add_batched_meshes_simple(
-            f"{name}/poles", *prism(), upright(count), feet + 0.5 * TOP,
-            batched_scales=np.tile(POLE, (count, 1)), batched_colors=shades, **plain,
-        )  # fmt: skip
-        self._scene.add_batched_meshes_simple(
-            f"{name}/balls", *octasphere(), upright(count), feet + TOP,
-            batched_scales=np.full(count, BALL_RADIUS), batched_colors=shades, **plain,
-        )  # fmt: skip
-        for number, foot in enumerate(feet):
-            self._scene.add_label(
-                f"{name}/label {number}", str(number + 1), position=foot + 1.25 * TOP, anchor="bottom-center"
-            )
-
-    def _add_lines(self, name: str, segments: Array, colours: NDArray[np.uint8]) -> None:
-        both_ends = np.repeat(colours[:, None], 2, axis=1)
-        self._scene.add_line_segments(name, segments.astype(np.float32), both_ends, thickness=0.012)
+    def _corridor(self, ground: Ground, places: Sequence[Place]) -> Array:
+        """Both borders of the strip in which the feet are expected, (n, 2, 3)."""
+        borders = [NONE]
+        for begin, end in pairwise(np.array(places)):
+            length = float(np.linalg.norm(end - begin))
+            if length > 1e-6:
+                aside = self._half_width * np.array([begin[1] - end[1], end[0] - begin[0]]) / length
+                borders += [chained(_draped(ground, [begin + side, end + side])) for side in (aside, -aside)]
+        return np.concatenate(borders)
 
     def _update_leg(self, ground: Ground, robot_position: Array | None, course: Course) -> None:
         """The line from the robot to the waypoint it goes to next, anew every few centimetres of its way."""
@@ -140,6 +190,8 @@ class MissionFigure:
         points = _draped(ground, [start, ahead[0]]) if wanted is not None and len(start) == 2 else np.zeros((0, 3))
         self._leg.colour(course.colour)
         self._leg.chain(points)
+        self._leg_corridor.colour(course.colour)
+        self._leg_corridor.show(self._corridor(ground, [start, ahead[0]]) if len(points) and len(start) == 2 else NONE)
 
 
 def _circle(ground: Ground, foot: Array, radius: float) -> Array:

@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from weaver_console.scene.lines import NONE, Lines
+from weaver_console.scene.balance_figure import BalanceFigure
+from weaver_console.scene.layers import TRANSPORT
+from weaver_console.scene.lines import NONE, Lines, chained
 from weaver_shared.messages import MissionState, OdometryEstimate, RobotState, TruthState
 from weaver_shared.robots import RobotDescription
 from weaver_shared.transforms import Pose
@@ -41,7 +43,9 @@ class MotionFigure:
         self._truth = scene.add_frame(f"{name}/truth", show_axes=False, visible=False)
         box = Lines(scene, f"{name}/truth/outline", _TRUTH, thickness=0.006)
         box.show(_box_edges(robot))
+        self._balance = BalanceFigure(scene, f"{name}/balance", robot)
         self._trail: list[Array] = []
+        self._costs: list[float] = []
         self._trail_shown = True
         self._stable: bool | None = None
 
@@ -49,7 +53,9 @@ class MotionFigure:
         world_from_body = Pose.of(state.position_in_world, state.wxyz)
         feet = world_from_body.transform(state.foot_in_body)
         standing = feet[state.foot_contact]
-        self._support.chain(_closed_hull(standing))
+        hull = _closed_hull(standing)
+        self._support.chain(hull)
+        self._balance.update(world_from_body, state.joint_position, hull, state.stability_margin)
         self._colour_support(state.stability_margin > 0.0)
         force = np.clip(state.foot_force, 0.0, 200.0)[:, None] * np.array([0.0, 0.0, FORCE_SCALE])
         self._forces.show(np.stack([feet, feet + force], axis=1)[state.foot_contact & (state.foot_force > 1.0)])
@@ -80,13 +86,18 @@ class MotionFigure:
 
     def show_trail(self, wanted: bool) -> None:
         self._trail_shown = wanted
-        self._trail_line.chain(np.array(self._trail) if wanted and self._trail else np.zeros((0, 3)))
+        segments = chained(np.array(self._trail)) if wanted and self._trail else NONE
+        colours = TRANSPORT.colours(np.array(self._costs[1:]))
+        colours[~np.isfinite(self._costs[1:])] = _TRAIL
+        self._trail_line.show_in(segments, colours[: len(segments)])
 
-    def leave_trail(self, state: RobotState) -> None:
+    def leave_trail(self, state: RobotState, cost_of_transport: float) -> None:
+        """Coloured by what the last seconds of way cost; grey where that is not known."""
         position = state.position_in_world
         if self._trail and float(np.linalg.norm(position - self._trail[-1])) < TRAIL_STEP:
             return
         self._trail = [*self._trail[-LONGEST_TRAIL:], np.array(position)]
+        self._costs = [*self._costs[-LONGEST_TRAIL:], cost_of_transport]
         if self._trail_shown:
             self.show_trail(True)
 

@@ -19,16 +19,20 @@ import viser
 from numpy.typing import NDArray
 
 from weaver_console.robot_record import RobotRecord
+from weaver_console.scene.contours import ContourFigure
 from weaver_console.scene.ground import Ground
 from weaver_console.scene.layers import Legend
-from weaver_console.scene.mission_figure import Course, MissionFigure
+from weaver_console.scene.measure_figure import MeasureFigure
+from weaver_console.scene.mission_figure import TOP, Course, MissionFigure
 from weaver_console.scene.motion_figure import MotionFigure
 from weaver_console.scene.robot_figure import RobotFigure
+from weaver_console.scene.shapes import half_width
 from weaver_console.scene.terrain_figure import MeshStore, TerrainFigure
 from weaver_shared.bus import free_port
 from weaver_shared.config.navigation import PathFollowerConfig
-from weaver_shared.messages import OdometryEstimate, RobotState, TruthState, Waypoint
+from weaver_shared.messages import CameraPicture, OdometryEstimate, PowerState, RobotState, TruthState, Waypoint
 from weaver_shared.robots import RobotDescription
+from weaver_shared.transforms import Pose
 
 logger = logging.getLogger(__name__)
 
@@ -48,6 +52,10 @@ STILL = 3e-4
 
 FOLLOW_STEP = 0.02
 
+PICTURE_PERIOD_NS = 400_000_000
+PICTURE_TIMEOUT = 15.0
+"""s; a browser without a graphics card takes a while for one."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wishes:
@@ -60,6 +68,9 @@ class Wishes:
     truth: bool = True
     frusta: bool = True
     trail: bool = True
+    contours: bool = False
+    torques: bool = False
+    measure: tuple[Waypoint, ...] = ()
 
 
 @dataclass(slots=True)
@@ -73,18 +84,29 @@ class _Shown:
     motion: MotionFigure | None
     terrain: TerrainFigure
     mission: MissionFigure
-    frustum: Any = None
+    contours: ContourFigure
+    measure: MeasureFigure
+    frusta: dict[str, Any] = field(default_factory=dict)
     followed: Array | None = None
     drawn: RobotState | None = None
     versions: dict[str, int] = field(default_factory=dict)
 
 
 class PageScene:
-    """`on_pick` is called, in a thread of viser's, with a point (3,) in world or None for a click beside the ground."""
+    """`on_pick` is called, in a thread of viser's, with a point (3,) in world or None for a click beside the ground;
+    `on_drag` likewise with a waypoint's number, where it is held over the ground, and whether it was let go."""
 
-    def __init__(self, store: MeshStore, *, on_pick: Callable[[Array | None], None],
-                 on_legend: Callable[[Legend], None]) -> None:  # fmt: skip
+    def __init__(
+        self,
+        store: MeshStore,
+        *,
+        on_pick: Callable[[Array | None], None],
+        on_drag: Callable[[int, Array, bool], None],
+        on_legend: Callable[[Legend], None],
+    ) -> None:
         self._store = store
+        self._on_drag = on_drag
+        self._held: Array | None = None
         self._on_pick = on_pick
         self._on_legend = on_legend
         self._wishes = Wishes()
@@ -136,6 +158,8 @@ class PageScene:
             self._on_legend(shown.terrain.legend)
         self._update_robot(shown, record, wishes)
         state = record.newest("tele/state", RobotState)
+        shown.contours.update(record.ground, wishes.contours)
+        shown.measure.update(record.ground, wishes.measure)
         mission = record.mission
         shown.mission.update(
             record.ground,
@@ -161,7 +185,8 @@ class PageScene:
         if _new(shown, record, "tele/state") and _moved(shown.drawn, state):
             shown.drawn = state
             shown.figure.update(state.position_in_world, state.wxyz, state.joint_position, state.foot_contact)
-            shown.motion.leave_trail(state)
+            power = record.newest("tele/power", PowerState)
+            shown.motion.leave_trail(state, power.cost_of_transport if power is not None else float("nan"))
             if _changed(shown, "lines", state.stamp_ns // LINES_PERIOD_NS):
                 shown.motion.update(state)
                 shown.motion.lookahead(state, record.mission)
@@ -169,7 +194,8 @@ class PageScene:
         if odometry is not None and _new(shown, record, "tele/odometry"):
             shown.motion.covariance(odometry)
         shown.motion.truth(record.newest("truth/state", TruthState) if wishes.truth else None)
-        shown.frustum.visible = wishes.frusta
+        shown.figure.torque(state.joint_torque if wishes.torques else None)
+        _show_pictures(shown, record, wishes.frusta)
         if _changed(shown, "trail", int(wishes.trail)):
             shown.motion.show_trail(wishes.trail)
 
@@ -194,10 +220,14 @@ class PageScene:
                 "/world/mission",
                 passing_radius=FOLLOWER.acceptance_radius,
                 goal_radius=FOLLOWER.goal_radius,
+                half_width=half_width(robot) if robot is not None else 0.0,
+                on_drag=self._dragged,
             ),
+            contours=ContourFigure(scene, "/world/contours"),
+            measure=MeasureFigure(scene, "/world/measure"),
         )
-        if robot is not None:
-            self._shown.frustum = _add_frustum(scene, robot)
+        if robot is not None and robot.has_camera:
+            self._shown.frusta = _add_frusta(scene, robot)
         return self._shown
 
     def _drop(self) -> None:
@@ -233,6 +263,29 @@ class PageScene:
         except Exception:
             logger.exception("a click in the scene was lost")
 
+    async def _dragged(self, event: Any) -> None:
+        """A waypoint in hand, in the order of the hand's movements."""
+        grid = self._ground.grid() if self._ground is not None else None
+        if grid is not None and event.phase != "start":
+            # What is in hand is the ball on top: the ground right below it is meant, not that behind it.
+            eye, held = np.array(event.client.camera.position) - TOP, np.array(event.end_position) - TOP
+            met = grid.meet(eye, held - eye)
+            self._held = met if met is not None else self._held
+        if self._held is not None and event.phase != "start" and event.instance_index is not None:
+            self._on_drag(event.instance_index, self._held, event.phase == "end")
+        if event.phase != "update":
+            self._held = None
+
+    def picture(self, height: int, width: int) -> NDArray[np.uint8] | None:
+        """What the page's view shows now, (height, width, 3) sRGB; None when nobody looks or it takes too long."""
+        client = next(iter(self._server.get_clients().values()), None)
+        if client is None:
+            return None
+        try:
+            return np.asarray(client.get_render(height, width, timeout=PICTURE_TIMEOUT), dtype=np.uint8)
+        except (TimeoutError, RuntimeError):
+            return None
+
     def _place_camera(self, position: Array) -> None:
         """Look at a robot that has just been selected, from behind and above."""
         eye, target = position + CAMERA_FROM_ROBOT, position + LOOK_FROM_ROBOT
@@ -254,14 +307,28 @@ class PageScene:
             client.camera.position = client.camera.position + moved
 
 
-def _add_frustum(scene: Any, robot: RobotDescription) -> Any:
+def _add_frusta(scene: Any, robot: RobotDescription) -> dict[str, Any]:
+    """Both eyes', by the names of their pictures."""
     camera = robot.camera
-    pose = camera.body_from_left
-    return scene.add_camera_frustum(
-        "/world/robot/left_eye", fov=float(2.0 * np.arctan(0.5 * camera.height / camera.focal_length)),
-        aspect=camera.width / camera.height, scale=0.12, thickness=0.004, color=(150, 160, 175), wxyz=pose.wxyz,
-        position=pose.position, cast_shadow=False, receive_shadow=False,
-    )  # fmt: skip
+    left = camera.body_from_left
+    right = Pose(rotation=left.rotation, position=left.transform(np.array([[camera.baseline, 0.0, 0.0]]))[0])
+    return {
+        name: scene.add_camera_frustum(
+            f"/world/robot/{name}_eye", fov=float(2.0 * np.arctan(0.5 * camera.height / camera.focal_length)),
+            aspect=camera.width / camera.height, scale=0.12, thickness=0.004, color=(150, 160, 175), wxyz=pose.wxyz,
+            position=pose.position, cast_shadow=False, receive_shadow=False,
+        )
+        for name, pose in (("left", left), ("right", right))
+    }  # fmt: skip
+
+
+def _show_pictures(shown: _Shown, record: RobotRecord, wanted: bool) -> None:
+    for name, frustum in shown.frusta.items():
+        frustum.visible = wanted
+        picture = record.newest(f"tele/cam/{name}", CameraPicture) if wanted else None
+        if picture is not None and _changed(shown, f"eye {name}", picture.stamp_ns // PICTURE_PERIOD_NS):
+            # NOTE: viser would take the pixels and make a JPEG of them; the robot has sent one.
+            frustum._format, frustum._image_data = "jpeg", picture.jpeg
 
 
 def _drawable(state: RobotState, robot: RobotDescription | None) -> bool:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from weaver_console.scene.layers import TORQUE
 from weaver_console.scene.shapes import octasphere, prism, upright
 from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import joint_frames_in_body
@@ -53,6 +54,8 @@ class RobotFigure:
             batched_scales=np.full(robot.leg_count, 1.25 * robot.foot_radius), batched_colors=_SWING_COLOUR, **shape,
         )  # fmt: skip
         self._contact: NDArray[np.bool_] | None = None
+        self._stall = np.tile([robot.servos[joint.servo].stall_torque for joint in robot.joints], robot.leg_count)
+        self._shares: Array | None = None
 
     def _add_body(self, scene: Any, name: str) -> None:
         robot = self._robot
@@ -67,6 +70,25 @@ class RobotFigure:
         stripe = (0.12 * robot.body.size[0], 0.9 * robot.body.size[1], 0.004)
         place = (0.42 * robot.body.size[0], 0.0, top)
         scene.add_box(f"{name}/front", color=_LINK_COLOUR, dimensions=stripe, position=place, **still)
+
+    def torque(self, torque: Array | None) -> None:
+        """Colour every joint and the link it moves by its share of the servo's stall torque; None as usual."""
+        if torque is None or torque.shape != self._stall.shape:
+            shares = None
+        else:
+            shares = np.round(np.abs(torque) / self._stall, 2)
+        if shares is None and self._shares is None:
+            return
+        if shares is not None and self._shares is not None and np.array_equal(shares, self._shares):
+            return
+        self._shares = shares
+        if shares is None:
+            self._links.batched_colors = np.array(_LINK_COLOUR, dtype=np.uint8)
+            self._joints.batched_colors = np.array(_JOINT_COLOUR, dtype=np.uint8)
+            return
+        colours = TORQUE.colours(shares)
+        self._joints.batched_colors = colours
+        self._links.batched_colors = colours.reshape(self._robot.leg_count, -1, 3)[:, self._first].reshape(-1, 3)
 
     def update(self, position: Array, wxyz: Array, joint_position: Array, contact: NDArray[np.bool_]) -> None:
         """Pose of the body in world, joints (joints,) in rad, and which feet touch the ground (legs,)."""

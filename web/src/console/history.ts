@@ -18,6 +18,13 @@ export interface SwingSample {
   swing: readonly boolean[];
 }
 
+export interface TrailPoint {
+  x: number;
+  y: number;
+  /** Cost of transport of the way up to there; null unknown. */
+  cost: number | null;
+}
+
 export class History {
   readonly parameters: Record<ParameterName, ParameterSample[]> = {
     virtual_stiffness: [],
@@ -25,7 +32,7 @@ export class History {
     stride_height: [],
   };
   swings: SwingSample[] = [];
-  trail: { x: number; y: number }[] = [];
+  trail: TrailPoint[] = [];
 
   clear(): void {
     for (const name of PARAMETERS) this.parameters[name] = [];
@@ -45,12 +52,12 @@ export class History {
     this.swings = recent(this.swings, { seconds: gait.stamp_ns / 1e9, swing: gait.swing });
   }
 
-  addState(state: RobotState): void {
+  addState(state: RobotState, cost: number | null): void {
     const [x, y] = state.position_in_world;
     if (typeof x !== "number" || typeof y !== "number") return;
     const last = this.trail.at(-1);
     if (last !== undefined && Math.hypot(x - last.x, y - last.y) < TRAIL_STEP) return;
-    this.trail.push({ x, y });
+    this.trail.push({ x, y, cost });
     if (this.trail.length > TRAIL_LENGTH) this.trail.shift();
   }
 }

@@ -11,7 +11,7 @@ interface Preferences {
   mainView: MainView;
   cameras: boolean;
   camera: string | null;
-  view: { follow: boolean; truth: boolean; frusta: boolean; trail: boolean };
+  view: { follow: boolean; truth: boolean; frusta: boolean; trail: boolean; contours: boolean; torques: boolean };
 }
 
 export const usePreferences = create<Preferences>()(
@@ -21,8 +21,13 @@ export const usePreferences = create<Preferences>()(
       mainView: "scene",
       cameras: true,
       camera: null,
-      view: { follow: true, truth: false, frusta: false, trail: true },
+      view: { follow: true, truth: false, frusta: false, trail: true, contours: false, torques: false },
     }),
-    { name: "weaver.preferences", version: 1 },
+    {
+      name: "weaver.preferences",
+      version: 1,
+      // What was kept before an option came keeps its meaning.
+      merge: (kept, now) => ({ ...now, ...(kept as object), view: { ...now.view, ...(kept as Preferences | undefined)?.view } }),
+    },
   ),
 );

@@ -6,11 +6,12 @@ import type { Incoming } from "../protocol/wire";
 import { settleAnswer } from "./commands";
 import { rememberOperator } from "./identity";
 import { history, terrain } from "./live";
+import { measureAt, publishMeasure } from "../measure/measureStore";
 import { notify } from "./notices";
 import { selectRobot, send } from "./outbox";
 import { usePreferences } from "./preferences";
 import { matches } from "./receive";
-import { useConsole } from "./store";
+import { latest, useConsole } from "./store";
 
 /** The robot whose terrain, history and draft are kept here. */
 let shown: string | null = null;
@@ -40,10 +41,10 @@ export function react(message: Incoming, now: number): void {
       settleAnswer(message);
       break;
     case "picked":
-      useDraft.getState().dispatch({ type: "add", waypoint: { x: message.x, y: message.y } });
+      if (!measureAt(message)) useDraft.getState().dispatch({ type: "add", waypoint: { x: message.x, y: message.y } });
       break;
     case "missed":
-      notify("info", `No waypoint was placed: ${message.reason}.`);
+      notify("info", `Nothing was placed: ${message.reason}.`);
       break;
     case "dragged":
       useDraft.getState().drag(message.index, { x: message.x, y: message.y }, message.done);
@@ -66,10 +67,14 @@ function sentence(text: string): string {
 
 function keep(key: string, value: unknown, received: number): void {
   if (key.startsWith("tele/map/tile/")) terrain.put(key, value as TileMessage, received);
-  else if (key === "tele/state") history.addState(value as RobotState);
+  else if (key === "tele/state") history.addState(value as RobotState, costOfTransport());
   else if (key === "tele/gait") history.addGait(value as GaitState);
   else if (key === "state/mission") useDraft.getState().follow((value as MissionState).waypoints);
   else if (key === "tele/adaptation") history.addAdaptation(value as AdaptationReport);
+}
+
+function costOfTransport(): number | null {
+  return latest(useConsole.getState(), "tele/power")?.value.cost_of_transport ?? null;
 }
 
 /** The same robot again, after a reconnection, keeps its draft and history; its terrain is sent anew. */
@@ -90,6 +95,7 @@ function restore(): void {
   send({ type: "view", ...view });
   send({ type: "watch", cameras });
   useDraft.getState().publish();
+  publishMeasure();
 }
 
 /** With one robot there is nothing to choose. */

@@ -19,6 +19,34 @@ export function colourScale(legend: Pick<Legend, "layer" | "unit" | "stops" | "u
   };
 }
 
+/** The trail's colours by the cost of transport, as in the 3-D view. */
+export const TRANSPORT: ColourScale = {
+  layer: "transport",
+  unit: "",
+  stops: [
+    [2, parseColour("#2c6e63")],
+    [6, parseColour("#a3bd5c")],
+    [10, parseColour("#e3d35f")],
+    [15, parseColour("#d96c3c")],
+    [20, parseColour("#b03034")],
+  ],
+  unknown: [128, 128, 128],
+};
+
+/** Joints by their share of the servo's stall torque, as in the 3-D view. */
+export const TORQUE: ColourScale = {
+  layer: "torque",
+  unit: "",
+  stops: [
+    [0, parseColour("#2c3038")],
+    [0.25, parseColour("#3d6fa5")],
+    [0.5, parseColour("#e3d35f")],
+    [0.8, parseColour("#d96c3c")],
+    [1, parseColour("#d01c1c")],
+  ],
+  unknown: [128, 128, 128],
+};
+
 /** Linear between stops, clamped outside; NaN is the colour of the unknown. */
 export function colourOf(scale: ColourScale, value: number): Rgb {
   const { stops } = scale;

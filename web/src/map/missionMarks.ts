@@ -1,13 +1,25 @@
 /** The mission on the 2-D map: the way walked, the way to go, the waypoints and the follower's target. */
 import type { Waypoint } from "../protocol/messages";
+import type { TrailPoint } from "../console/history";
+import { TRANSPORT, colourOf } from "./colourScale";
 import { type Point, type View, toScreen } from "./projection";
 import { type Context, type Ink, circle, polyline, strokeWithHalo } from "./strokes";
 
 const WAYPOINT_PIXELS = 11;
 
-export function drawTrail(context: Context, view: View, trail: readonly Point[], ink: Ink): void {
+/** The way walked, in the colours of what it cost; as ink where that is not known. */
+export function drawTrail(context: Context, view: View, trail: readonly TrailPoint[], ink: Ink): void {
   polyline(context, view, trail);
   strokeWithHalo(context, ink, ink.trail, 2);
+  context.lineWidth = 3;
+  for (let k = 1; k < trail.length; k++) {
+    const cost = trail[k]!.cost;
+    if (cost === null) continue;
+    const [red, green, blue] = colourOf(TRANSPORT, cost);
+    context.strokeStyle = `rgb(${red}, ${green}, ${blue})`;
+    polyline(context, view, [trail[k - 1]!, trail[k]!]);
+    context.stroke();
+  }
 }
 
 /** The way still to go: from the robot (when known) through the waypoints. */
@@ -23,6 +35,25 @@ export function drawPath(
   polyline(context, view, robot === null ? waypoints : [robot, ...waypoints]);
   strokeWithHalo(context, ink, ink.path, 2);
   context.setLineDash([]);
+}
+
+/** The strip in which the feet are expected. */
+export function drawCorridor(
+  context: Context,
+  view: View,
+  robot: Point | null,
+  waypoints: readonly Waypoint[],
+  halfWidth: number,
+  ink: Ink,
+): void {
+  if (waypoints.length === 0 || halfWidth <= 0) return;
+  context.globalAlpha = 0.18;
+  context.strokeStyle = ink.path;
+  context.lineWidth = 2 * halfWidth * view.scale;
+  context.lineJoin = "round";
+  polyline(context, view, robot === null ? waypoints : [robot, ...waypoints]);
+  context.stroke();
+  context.globalAlpha = 1;
 }
 
 export interface WaypointMark {

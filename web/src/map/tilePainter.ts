@@ -5,6 +5,7 @@ import { type LayerName, type Tile, cellValue } from "./tiles";
 interface Painted {
   tile: Tile;
   scale: ColourScale;
+  contours: boolean;
   picture: HTMLCanvasElement;
 }
 
@@ -12,18 +13,21 @@ interface Painted {
 const RELIEF = 1.6;
 /** Standard deviation (mm) from which a cell is drawn pale, since its height is mostly guessed. */
 const UNSURE_MM = 60;
+/** m between two contour lines, as in the 3-D view. */
+const CONTOUR_INTERVAL = 0.05;
+const LINE_SHADE = 0.55;
 const SURE_ALPHA = 255;
 const UNSURE_ALPHA = 130;
 
 export class TilePainter {
   private readonly painted = new Map<string, Painted>();
 
-  picture(key: string, tile: Tile, scale: ColourScale): HTMLCanvasElement {
+  picture(key: string, tile: Tile, scale: ColourScale, contours: boolean): HTMLCanvasElement {
     const old = this.painted.get(key);
-    if (old?.tile === tile && old.scale === scale) return old.picture;
+    if (old?.tile === tile && old.scale === scale && old.contours === contours) return old.picture;
     const picture = old?.picture ?? document.createElement("canvas");
-    paint(picture, tile, scale);
-    this.painted.set(key, { tile, scale, picture });
+    paint(picture, tile, scale, contours);
+    this.painted.set(key, { tile, scale, contours, picture });
     return picture;
   }
 
@@ -33,7 +37,7 @@ export class TilePainter {
 }
 
 /** Cell (r, c) lies at column r and, since y points up in the world and down in a picture, row size - 1 - c. */
-function paint(picture: HTMLCanvasElement, tile: Tile, scale: ColourScale): void {
+function paint(picture: HTMLCanvasElement, tile: Tile, scale: ColourScale, contours: boolean): void {
   const { size } = tile;
   picture.width = picture.height = size;
   const context = picture.getContext("2d");
@@ -45,15 +49,25 @@ function paint(picture: HTMLCanvasElement, tile: Tile, scale: ColourScale): void
       const value = cellValue(tile, layer, r * size + c);
       if (Number.isNaN(value)) continue; // stays transparent: the hatching below shows
       const shade = layer === "elevation" ? relief(tile, r, c) : 1;
+      const line = contours && onContour(tile, r, c) ? LINE_SHADE : 1;
       const [red, green, blue] = colourOf(scale, value);
       const at = 4 * ((size - 1 - c) * size + r);
-      image.data[at] = red * shade;
-      image.data[at + 1] = green * shade;
-      image.data[at + 2] = blue * shade;
-      image.data[at + 3] = layer !== "age" && (tile.sigma[r * size + c] ?? 255) > UNSURE_MM ? UNSURE_ALPHA : SURE_ALPHA;
+      image.data[at] = red * shade * line;
+      image.data[at + 1] = green * shade * line;
+      image.data[at + 2] = blue * shade * line;
+      image.data[at + 3] = layer !== "age" && layer !== "uncertainty" && (tile.sigma[r * size + c] ?? 255) > UNSURE_MM ? UNSURE_ALPHA : SURE_ALPHA;
     }
   }
   context.putImageData(image, 0, 0);
+}
+
+/** Whether the ground passes a whole multiple of the interval between this cell and the one before or beside it. */
+function onContour(tile: Tile, r: number, c: number): boolean {
+  const { size } = tile;
+  const level = (row: number, column: number) =>
+    row < 0 || column < 0 ? NaN : Math.floor(cellValue(tile, "elevation", row * size + column) / CONTOUR_INTERVAL);
+  const here = level(r, c);
+  return [level(r - 1, c), level(r, c - 1)].some((other) => !Number.isNaN(other) && other !== here);
 }
 
 /** Brightness of a slope lit from the upper left, 1 on level ground. */

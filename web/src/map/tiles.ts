@@ -1,12 +1,13 @@
 /** The terrain map as the console sends it: square tiles of cells, one array per layer. */
 
-export const LAYERS = ["elevation", "roughness", "step_height", "age"] as const;
+export const LAYERS = ["elevation", "roughness", "step_height", "uncertainty", "age"] as const;
 export type LayerName = (typeof LAYERS)[number];
 
 export const LAYER_LABELS: Record<LayerName, string> = {
   elevation: "Elevation",
   roughness: "Roughness",
   step_height: "Step height",
+  uncertainty: "Uncertainty",
   age: "Age",
 };
 
@@ -93,6 +94,10 @@ export function cellValue(tile: Tile, layer: LayerName, k: number): number {
       return index(tile.roughness[k]);
     case "step_height":
       return index(tile.stepHeight[k]);
+    case "uncertainty": {
+      const value = tile.sigma[k] ?? UNKNOWN_INDEX;
+      return value === UNKNOWN_INDEX ? NaN : value / 1000;
+    }
     case "age": {
       const value = tile.age[k] ?? UNKNOWN_INDEX;
       return value === UNKNOWN_INDEX ? NaN : value;

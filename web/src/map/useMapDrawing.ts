@@ -4,8 +4,10 @@ import { type RefObject, useEffect, useMemo } from "react";
 import { freshnessOf } from "../console/useLatest";
 import { terrain } from "../console/live";
 import { usePreferences } from "../console/preferences";
+import { selectedRobot } from "../console/control";
 import { latest, useConsole } from "../console/store";
 import { shownWaypoints, useDraft } from "../mission/draftStore";
+import { useMeasure } from "../measure/measureStore";
 import { type ColourScale, colourScale } from "./colourScale";
 import type { Ink } from "./strokes";
 import type { View } from "./projection";
@@ -62,7 +64,24 @@ export function useMapDrawing(
       const { level } = freshnessOf(state, "tele/state");
       const mission = latest(state, "state/mission")?.value;
       const truth = usePreferences.getState().view.truth ? latest(state, "truth/state")?.value : undefined;
-      const shown = [view.current, draft, dragging, robot, level, mission, truth, terrain.version, devicePixelRatio];
+      const { view: options } = usePreferences.getState();
+      const contours = options.contours;
+      const measure = useMeasure.getState().places;
+      const halfWidth = selectedRobot(state)?.motion?.half_width ?? 0;
+      const shown = [
+        view.current,
+        draft,
+        dragging,
+        robot,
+        level,
+        mission,
+        truth,
+        contours,
+        measure,
+        halfWidth,
+        terrain.version,
+        devicePixelRatio,
+      ];
       if (shown.every((part, k) => part === drawn[k])) return;
       drawn = shown;
       fit(context, view.current);
@@ -79,6 +98,9 @@ export function useMapDrawing(
         mission,
         truth,
         crossHair,
+        contours,
+        halfWidth,
+        measure,
         ink,
       });
     };

@@ -1,5 +1,6 @@
 /** Does on the map what its keys mean. */
 import type { KeyboardEvent } from "react";
+import { measureAt } from "../measure/measureStore";
 import { useDraft } from "../mission/draftStore";
 import { insertionIndex } from "../mission/path";
 import { mapKey } from "./keys";
@@ -46,6 +47,7 @@ export function useMapKeys(map: MapView): (event: KeyboardEvent) => void {
 
 /** At the end, or in the leg that it lengthens least. */
 export function addWaypoint(waypoint: Point, insert: boolean): void {
+  if (measureAt(waypoint)) return;
   const { draft, dispatch } = useDraft.getState();
   if (insert) dispatch({ type: "insert", index: insertionIndex(draft.waypoints, waypoint), waypoint });
   else dispatch({ type: "add", waypoint });

@@ -29,6 +29,8 @@ export interface MotionLimits {
   cruise_seconds: number;
   postures: string[];
   packs: boolean;
+  /** How far beside the way feet are expected. */
+  half_width: number;
 }
 
 export interface RobotEntry {
@@ -155,7 +157,16 @@ export type Outgoing =
   | { type: "teleop"; forward: number; left: number; turn: number; dead_man: boolean }
   | { type: "draft"; waypoints: readonly Waypoint[]; selected: number | null }
   | { type: "layer"; name: string }
-  | { type: "view"; follow?: boolean; truth?: boolean; frusta?: boolean; trail?: boolean }
+  | {
+      type: "view";
+      follow?: boolean;
+      truth?: boolean;
+      frusta?: boolean;
+      trail?: boolean;
+      contours?: boolean;
+      torques?: boolean;
+    }
+  | { type: "measure"; places: readonly Waypoint[] }
   | { type: "watch"; cameras: boolean }
   | { type: "ping"; t: number }
   | { type: "taken" };

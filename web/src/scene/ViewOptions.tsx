@@ -2,13 +2,17 @@
 import { Button, Menu } from "@mantine/core";
 import { send } from "../console/outbox";
 import { usePreferences } from "../console/preferences";
+import { TORQUE, TRANSPORT } from "../map/colourScale";
+import { ColourKey } from "./ColourKey";
 
 type Option = keyof ReturnType<typeof usePreferences.getState>["view"];
 
 const OPTIONS: readonly (readonly [Option, string])[] = [
   ["follow", "Camera follows the robot"],
-  ["trail", "Trail"],
-  ["frusta", "Camera frusta"],
+  ["trail", "Trail, coloured by cost of transport"],
+  ["contours", "Contour lines every 5 cm"],
+  ["torques", "Joint torques as colour"],
+  ["frusta", "Camera frusta with pictures"],
   ["truth", "Ground truth (simulation)"],
 ];
 
@@ -28,11 +32,12 @@ export function ViewOptions() {
       </Menu.Target>
       <Menu.Dropdown>
         {OPTIONS.map(([option, label]) => (
-          <Menu.Item key={option} role="menuitemcheckbox" aria-checked={view[option]} onClick={() => toggle(option)}>
-            <span aria-hidden>{view[option] ? "☑ " : "☐ "}</span>
+          <Menu.CheckboxItem key={option} checked={view[option]} onChange={() => toggle(option)}>
             {label}
-          </Menu.Item>
+          </Menu.CheckboxItem>
         ))}
+        <ColourKey label="Trail, cost of transport" scale={TRANSPORT} ends={["2", "20"]} />
+        <ColourKey label="Joint torque, % of stall" scale={TORQUE} ends={["0", "100"]} />
       </Menu.Dropdown>
     </Menu>
   );

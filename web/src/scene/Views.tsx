@@ -3,10 +3,12 @@ import { Button } from "@mantine/core";
 import { type ReactNode, useMemo } from "react";
 import { type MainView, usePreferences } from "../console/preferences";
 import { useConsole } from "../console/store";
+import { MeasureTool } from "../measure/MeasureTool";
 import { LayerLegend } from "../map/LayerLegend";
 import { MapCanvas } from "../map/MapCanvas";
 import { CameraView } from "./CameraView";
 import { SceneFrame } from "./SceneFrame";
+import { SavePicture } from "./SavePicture";
 import { ViewOptions } from "./ViewOptions";
 import { probeWebGl } from "./webgl";
 
@@ -22,9 +24,10 @@ export function Views() {
     <div className="views" data-main={main} data-scene={withScene}>
       <div className="views-bar">
         <LayerLegend />
-        {withScene ? (
-          <ViewOptions />
-        ) : (
+        <MeasureTool />
+        <SavePicture main={main} />
+        <ViewOptions />
+        {!withScene && (
           <span className="hint">
             {webGl.available
               ? "The console runs without its 3-D view."
