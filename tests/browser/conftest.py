@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import os
-import re
 import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
 from full_robot import FullRobot
+from visitors import CHROMIUM, DESK, FLAGS, ROBOT_ID, WITHOUT_WEBGL, Visitor
 
 from weaver_console import built_page
 from weaver_console.access import Access
@@ -22,20 +22,6 @@ from weaver_console.hub import Hub
 from weaver_console.link import Link
 from weaver_console.web_server import web_server
 from weaver_shared.bus import MemoryBus
-
-CHROMIUM = Path("/usr/bin/chromium")
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
-ROBOT_ID = "weaver-1"
-PATIENT = 20_000.0  # ms
-DESK, PHONE = (1440, 900), (390, 844)
 
 PICTURES = "WEAVER_PICTURES"
 """Environment variable with the folder for the guide's pictures; without it they are kept beside the test's files."""
@@ -91,43 +77,6 @@ def stage(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Stage]:
     listener.close()
 
 
-@dataclass
-class Visitor:
-    """A person at a page."""
-
-    page: Any
-    requested: list[str] = field(default_factory=list)
-    complaints: list[str] = field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        self.page.set_default_timeout(PATIENT)
-        self.page.on("request", lambda request: self.requested.append(request.url))
-        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
-
-    def button(self, name: str | re.Pattern[str]) -> Any:
-        return self.page.get_by_role("button", name=name, exact=isinstance(name, str))
-
-    def press(self, name: str | re.Pattern[str]) -> None:
-        self.button(name).click()
-
-    def take_control(self) -> None:
-        self.press("Take control")
-        self.button("Release control").wait_for()
-
-    def stand(self) -> None:
-        self.take_control()
-        self.press("Stand")
-        self.see_state("STAND")
-
-    def see_state(self, state: str) -> None:
-        """Wait until the robot is shown in one of the states, a pattern."""
-        self.page.get_by_role("status", name="Robot status").filter(has_text=re.compile(state)).wait_for()
-
-    @property
-    def waypoints(self) -> Any:
-        return self.page.get_by_role("list", name="Waypoints").get_by_role("listitem")
-
-
 @pytest.fixture
 def visit(chromium: Callable[..., Any], stage: Stage) -> Iterator[Callable[..., Visitor]]:
     """Opens a page; all are closed, and the robot is set back, after the test."""
@@ -156,14 +105,6 @@ def visit(chromium: Callable[..., Any], stage: Stage) -> Iterator[Callable[..., 
         context.close()
     stage.robot.set_back()
     assert not [line for visitor in visitors for line in visitor.complaints]
-
-
-WITHOUT_WEBGL = """
-const original = HTMLCanvasElement.prototype.getContext;
-HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
-  return kind.startsWith("webgl") ? null : original.call(this, kind, ...rest);
-};
-"""
 
 
 @pytest.fixture

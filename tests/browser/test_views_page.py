@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import DESK, PHONE
+from visitors import DESK, PHONE
 from wire_robot import ground_height
 
 from weaver_console.scene.page_scene import CAMERA_FROM_ROBOT, LOOK_FROM_ROBOT
