@@ -204,11 +204,8 @@ class PageSession:
                 self._wish_draft(message)
             case p.ChooseLayer():
                 self._choose_layer(message.name)
-            case p.View():
-                self._wish(**{name: value for name in message.__struct_fields__
-                              if (value := getattr(message, name)) is not None})  # fmt: skip
-            case p.Measure():
-                self._wish(measure=tuple(Waypoint(x=place.x, y=place.y) for place in message.places))
+            case p.View() | p.Measure():
+                self._wish_view(message)
             case p.Watch():
                 self._feed.cameras = message.cameras
             case p.AskForControl():
@@ -304,6 +301,13 @@ class PageSession:
 
     def _wish_draft(self, draft: p.Draft) -> None:
         self._wish(draft=tuple(Waypoint(x=place.x, y=place.y) for place in draft.waypoints), selected=draft.selected)
+
+    def _wish_view(self, view: p.View | p.Measure) -> None:
+        if isinstance(view, p.Measure):
+            self._wish(measure=tuple(Waypoint(x=place.x, y=place.y) for place in view.places))
+        else:
+            told = {name: getattr(view, name) for name in view.__struct_fields__}
+            self._wish(**{name: value for name, value in told.items() if value is not None})
 
     def _choose_layer(self, name: str) -> None:
         if name not in LAYERS:

@@ -20,6 +20,9 @@ const PING_PERIOD = 1000;
  *  NOTE: counted, not timed, since a page that was itself busy finds the answers waiting. */
 const UNANSWERED_PINGS = 5;
 
+/** Marks when the first values of a robot were shown, for whoever measures the page. */
+const USABLE = "weaver.usable";
+
 const page = newPageId();
 let waiting: Incoming[] = [];
 let unansweredPings = 0;
@@ -107,6 +110,9 @@ function afterPainting(then: () => void): void {
 
 function show(messages: readonly Incoming[]): void {
   const now = performance.now();
+  if (messages.some((message) => message.type === "value") && performance.getEntriesByName(USABLE).length === 0) {
+    performance.mark(USABLE);
+  }
   const stored = messages.filter((message) => !(message.type === "value" && message.key.startsWith("tele/map/")));
   const before = useConsole.getState();
   useConsole.setState({ ...receive(before, stored, now), now });
