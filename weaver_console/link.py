@@ -84,6 +84,7 @@ class Link:
         self.bus.subscribe("*", topics.EVENT, self._receive_event)
         for topic in WATCHED:
             self.bus.subscribe("*", topic, self._receive)
+        self.bus.hear_faults(self._receive_fault)
         self.bus.watch(self._process_changed)
 
     def close(self) -> None:
@@ -169,6 +170,13 @@ class Link:
 
     def _receive_event(self, robot_id: str, key: str, event: Event) -> None:
         self.events.add(robot_id, event.severity, event.source, event.text, stamp_ns=event.stamp_ns)
+
+    def _receive_fault(self, robot_id: str, fault: str) -> None:
+        with self.lock:
+            record = self._record(robot_id)
+            if record.misread(fault, self.clock.now_ns()):
+                text = f"{robot_id} can not be understood: {fault}"
+                self.events.add(robot_id, Severity.ERROR, "console", text)
 
     def _process_changed(self, robot_id: str, process: str, came: bool) -> None:
         with self.lock:

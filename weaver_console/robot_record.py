@@ -22,6 +22,9 @@ HEARTBEAT_TIMEOUT_NS = 1_000_000_000
 LAST_WORDS_NS = 100_000_000
 """How long after its last heartbeat a robot that died may still be heard."""
 
+FAULT_NS = 5_000_000_000
+"""How long a message that could not be read is told of."""
+
 CONFLICT_NS = 2_000_000_000
 """How long a second robot with the same id is reported after its last heartbeat."""
 
@@ -60,6 +63,8 @@ class RobotRecord:
     alive: bool = False
     former_sessions: set[str] = field(default_factory=set)
     intruder_ns: int | None = None
+    fault: str = ""  # what was wrong with the last message that could not be read, and when it came
+    fault_ns: int | None = None
     generation: int = 0  # counts the robot's starts; values of former ones are void
     version: int = 0
     counts: dict[str, int] = field(default_factory=dict)  # messages received by key since the last rates
@@ -120,7 +125,16 @@ class RobotRecord:
     def heard(self, now_ns: int) -> bool:
         return self.heartbeat_ns is not None and now_ns - self.heartbeat_ns < HEARTBEAT_TIMEOUT_NS
 
+    def misread(self, fault: str, now_ns: int) -> bool:
+        """Note that something it said could not be read; True when that is news."""
+        news = self.fault_ns is None or now_ns - self.fault_ns > FAULT_NS
+        self.fault, self.fault_ns = fault, now_ns
+        return news
+
     def conflict(self, now_ns: int) -> str:
+        """What is wrong with who this robot is, in a sentence; empty when all is well."""
+        if self.fault_ns is not None and now_ns - self.fault_ns < FAULT_NS:
+            return f"{self.robot_id} can not be understood: {self.fault}"
         if self.intruder_ns is None or now_ns - self.intruder_ns > CONFLICT_NS:
             return ""
         return f"two robots answer to the id {self.robot_id!r}; stop one of them or start it with another id"

@@ -24,6 +24,9 @@ A = TypeVar("A")
 Receiver = Callable[[str, str, Any], None]
 """Called with robot id, key under the robot and the message; must return at once (put it into a LatestSlot)."""
 
+FaultReceiver = Callable[[str, str], None]
+"""Called with robot id and what is wrong with something that it said."""
+
 Watcher = Callable[[str, str, bool], None]
 """Called with robot id, process name and whether it has come or gone."""
 
@@ -59,6 +62,10 @@ class Bus(Protocol):
 
     def watch(self, watcher: Watcher) -> None:
         """Hear of processes coming and going."""
+        ...
+
+    def hear_faults(self, receiver: FaultReceiver) -> None:
+        """Hear of messages to us that could not be read."""
         ...
 
     def close(self) -> None: ...
@@ -113,6 +120,9 @@ class MemoryBus:
         for robot_id, process in self._alive:
             watcher(robot_id, process, True)
 
+    def hear_faults(self, receiver: FaultReceiver) -> None:
+        """Nothing travels as bytes here, so nothing is unreadable."""
+
     def close(self) -> None:
         for robot_id, process in self._alive:
             for watcher in self._watchers:
@@ -160,6 +170,7 @@ class ZenohBus:
         self._kept: list[Any] = []
         self._queryable_of: set[str] = set()
         self._reliable: list[tuple[str, Topic, Receiver]] = []
+        self._fault_receivers: list[FaultReceiver] = []
         self._closed = False
 
     def publish(self, robot_id: str, topic: Topic, message: Any, **parts: object) -> None:
@@ -242,6 +253,9 @@ class ZenohBus:
         subscriber = self._session.liveliness().declare_subscriber(f"{ROOT}/*/alive/**", changed, history=True)
         self._kept.append(subscriber)
 
+    def hear_faults(self, receiver: FaultReceiver) -> None:
+        self._fault_receivers.append(receiver)
+
     def alive(self, robot_id: str, timeout: float = 0.5) -> tuple[str, ...]:
         """Processes of a robot that are on the bus now."""
         replies = self._session.liveliness().get(robot_key(robot_id, "alive/**"), timeout=timeout)
@@ -292,7 +306,10 @@ class ZenohBus:
         try:
             message = codec.decode(data, topic.message)
         except MessageError as error:
-            logger.warning("dropped a message on %s: %s", key, error)
+            if not self._fault_receivers:
+                logger.warning("dropped a message on %s: %s", key, error)
+            for fault_receiver in self._fault_receivers:
+                fault_receiver(robot_id, str(error))
             return
         receiver(robot_id, rest, message)
 
