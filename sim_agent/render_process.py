@@ -11,9 +11,8 @@ import sys
 import threading
 
 import cv2
-import numpy as np
-from numpy.typing import NDArray
 
+from robot_agent.hardware.cameras.preview import preview
 from sim_agent.render_timing import RenderTiming
 from sim_agent.rendering import StereoRenderer, frame_sequence
 from sim_agent.worlds import WORLD_NAMES, make_world
@@ -24,8 +23,6 @@ from weaver_shared.latest import LatestSlot
 from weaver_shared.messages import CameraPicture, Event, SceneState, Severity
 from weaver_shared.robots import RobotDescription, load_robot
 
-PREVIEW_SIZE = (320, 240)  # px
-PREVIEW_QUALITY = 70  # of JPEG
 HEALTH_PERIOD = 0.5  # s
 
 
@@ -77,13 +74,6 @@ def render_scenes(
             lost = scenes.overwritten
             bus.publish(robot_id, topics.HEALTH, timing.report(lost - overwritten), process="render")
             overwritten = lost
-
-
-def preview(picture: NDArray[np.uint8]) -> bytes:
-    """A small JPEG of a grey picture, for people."""
-    small = cv2.resize(picture, PREVIEW_SIZE, interpolation=cv2.INTER_AREA)
-    _, encoded = cv2.imencode(".jpg", small, [cv2.IMWRITE_JPEG_QUALITY, PREVIEW_QUALITY])
-    return bytes(encoded)
 
 
 def _parser() -> argparse.ArgumentParser:

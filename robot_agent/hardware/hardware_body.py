@@ -113,8 +113,11 @@ class HardwareBody:
             self._retry(now_ns)
         self._switched += 1
         self.exchange.read()
-        if self.exchange.answered.all():
-            self._pace.add(self.exchange.taken)
+        self._pace.add(
+            self.exchange.taken,
+            complete=bool(self.exchange.answered.all()),
+            late=any(bus.late for bus in self._buses),
+        )
         self._judge(now_ns)
         self._samples = self._imu.take(self._clock.now_ns()) if self._imu is not None else ImuBatch.empty()
         if self._power is not None and (reading := self._power.take(self._clock.now_ns())) is not None:
@@ -191,7 +194,7 @@ class HardwareBody:
         said += [self._unmended] if self._unmended else []
         if self._pace.slow:
             said.append(
-                "reading all servos takes more than 8 ms of a tick's 10: "
+                "reading all servos takes longer than a tick leaves: "
                 "set the adapters' latency timer to 1 ms and the servos' return delay to 0"
             )
         return [

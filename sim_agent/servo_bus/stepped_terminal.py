@@ -5,6 +5,7 @@ from __future__ import annotations
 import array
 import fcntl
 import os
+import select
 import termios
 import time
 import tty
@@ -43,7 +44,8 @@ class SteppedTerminal:
         while self.unread() < expected:
             if time.monotonic() > deadline:
                 raise ResourceError(f"terminal {self.link} does not pass on what is written to it")
-            os.sched_yield()
+            # Sleeping lets the kernel's worker have the processor, where yielding would let in everybody else.
+            select.select([self._near], [], [], PATIENCE if self.unread() == 0 else 0.0)
 
     def unread(self) -> int:
         """Bytes that the near end can read."""

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from robot_agent.body import Trouble
 from robot_agent.safety import SEVERITY, SafetyInputs, SafetySupervisor
 from weaver_shared.config.safety import SafetyLimits
 from weaver_shared.messages import SafetyAction
@@ -56,6 +57,11 @@ def test_a_healthy_robot_may_move() -> None:
         ({"temperature": 75.0}, SafetyAction.SIT, "75 degrees Celsius"),
         ({"battery_voltage": 23.0}, SafetyAction.SIT, "23.0 V"),
         ({"power_age": 6.0}, SafetyAction.SIT, "power monitor"),
+        ({"battery_voltage": 20.9}, SafetyAction.SIT, "20.9 V"),
+        ({"battery_voltage": 20.9, "upright": False}, SafetyAction.CUT, "20.9 V: empty"),
+        ({"battery_voltage": 21.1, "upright": False}, SafetyAction.SIT, "21.1 V"),
+        ({"troubles": (Trouble(text="a joint is stuck", action=SafetyAction.HOLD),)}, SafetyAction.HOLD, "stuck"),
+        ({"troubles": (Trouble(text="no supply", action=SafetyAction.CUT),)}, SafetyAction.CUT, "no supply"),
     ],
 )
 def test_each_fault_has_its_consequence_and_its_words(

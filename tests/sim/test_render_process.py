@@ -7,8 +7,9 @@ import cv2
 import numpy as np
 import pytest
 
+from robot_agent.hardware.cameras.preview import SIZE, preview
 from sim_agent.model import sitting_joints
-from sim_agent.render_process import PREVIEW_SIZE, frame_sequence, main, preview, render_scenes
+from sim_agent.render_process import frame_sequence, main, render_scenes
 from weaver_shared import topics
 from weaver_shared.bus import MemoryBus, Receiver
 from weaver_shared.errors import ConfigurationError
@@ -62,7 +63,7 @@ def test_a_scene_becomes_a_pair_a_preview_and_a_warning_where_due(robot: RobotDe
     assert (frame.stamp_ns, frame.sequence) == (scene.stamp_ns, 20)
     assert picture.stamp_ns == scene.stamp_ns
     decoded = cv2.imdecode(np.frombuffer(picture.jpeg, np.uint8), cv2.IMREAD_GRAYSCALE)
-    assert decoded.shape == PREVIEW_SIZE[::-1]
+    assert decoded.shape == SIZE[::-1]
     assert isinstance(event, Event)
     assert event.text == "drawn coarsely"
 

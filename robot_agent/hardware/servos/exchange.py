@@ -26,6 +26,8 @@ class BusExchange:
         """False: the port was lost, and nothing is asked until it is opened again."""
         self._ids = list(ids)
         self._baud = baud
+        self.late = False
+        """Answers to the question before this one came when nobody waited for them any more."""
         self.least_duration = self.duration = 0.0
         """s that question and answers take on the wire at the least, and with what the servos may wait in between."""
         self.asked = np.arange(len(ids))
@@ -49,6 +51,7 @@ class BusExchange:
         self.duration = self.least_duration + len(ids) * (_TURN_ROUND + 2 * 10.0 / self._baud)
 
     def ask(self) -> None:
+        self.late = self.waiting and bool(self._overdue())
         self.group.begin()
         self._guarded(self._request)
 
@@ -58,6 +61,13 @@ class BusExchange:
                 self.group.feed(self.port.receive())
             except PortLostError:
                 self.up = False
+
+    def _overdue(self) -> bytes:
+        try:
+            return self.port.receive()
+        except PortLostError:
+            self.up = False
+            return b""
 
     @property
     def waiting(self) -> bool:

@@ -58,6 +58,36 @@ class PowerLine(Strict):
     port: str
 
 
+class GenicamCameras(Strict):
+    """Two cameras by serial number or address; the primary one exposes freely and triggers the other by a wire."""
+
+    kind: Literal["genicam"]
+    left: str
+    right: str
+    primary: Literal["left", "right"] = "left"
+    rate: Positive = 20.0  # Hz
+    exposure: Positive = 0.005  # s
+    gain: float = 0.0  # dB
+    exposure_line: str = "Line2"  # of the primary, that says when it exposes
+    trigger_line: str = "Line3"  # of the other
+
+
+class VideoCameras(Strict):
+    """What OpenCV opens, by number or path; without `right` both eyes come side by side in one picture."""
+
+    kind: Literal["video"]
+    left: str
+    right: str | None = None
+    exposure: Annotated[float, Field(ge=0.0)] = 0.0  # s, if it is known
+
+
+class ReplayedCameras(Strict):
+    """The stereo pictures of a recording."""
+
+    kind: Literal["replay"]
+    recording: str
+
+
 class EmulatedRobot(Strict):
     """That the devices are emulated, and the file in which their time stands."""
 
@@ -71,6 +101,7 @@ class HardwareConfig(Strict):
     servos: ServoSettings = ServoSettings()
     imu: ImuLine | None = None
     power: PowerLine | None = None
+    cameras: Annotated[GenicamCameras | VideoCameras | ReplayedCameras, Field(discriminator="kind")] | None = None
     emulated: EmulatedRobot | None = None  # not for robots that exist
 
     @model_validator(mode="after")
