@@ -95,4 +95,5 @@ def test_no_damaged_record_is_believed(line: str) -> None:
     assert count.damaged >= 4000
     assert count.wrong == 0
     # The IMUs' parsers want a second record before they believe the first, and the last may still be coming.
-    assert count.sound_lost <= 2
+    # A servo's answer beside which bytes are missing or too many is given up: once in 65 536 its CRC fits by chance.
+    assert count.sound_lost <= (0.025 * count.sound if line == "servo" else 2)

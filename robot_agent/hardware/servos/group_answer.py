@@ -12,6 +12,8 @@ from robot_agent.hardware.servos.checksum import crc16_of_rows
 from robot_agent.hardware.servos.frame_reader import FrameReader
 from robot_agent.hardware.servos.packet import HEADER, STATUS_OVERHEAD, Instruction, Status, status_of
 
+LONGEST_SLIP = 3
+"""Bytes lost or added in one place; with more the answer fails for its length."""
 _PAYLOAD = 9
 """Where parameters begin in a status packet."""
 
@@ -72,10 +74,23 @@ class GroupAnswer:
         seen: set[int] = set()
         for frame in frames:
             status = status_of(frame) if frame.instruction == Instruction.STATUS else None
-            if status is not None and status.id in self._rank and len(status.parameters) == self.length:
+            fits = status is not None and status.id in self._rank and len(status.parameters) == self.length
+            if status is not None and fits and not self._slipped(frame.end):
                 self._keep(status, again=status.id in seen)
                 seen.add(status.id)
         self.rejected += reader.rejected
+
+    def _slipped(self, end: int) -> bool:
+        """Whether bytes were lost or added inside the answer that ends here: what follows is not in its place then.
+
+        One in 65 536 of such answers has a CRC that fits by chance.
+        """
+        following = self._bytes.find(HEADER, end)
+        gap = self._bytes[end : following if following >= 0 else None]
+        answer = STATUS_OVERHEAD + self.length
+        too_many, too_few = len(gap) % answer, -len(gap) % answer
+        # A header's beginning is that of the next answer, cut short.
+        return 0 < too_few <= LONGEST_SLIP or (0 < too_many <= LONGEST_SLIP and not HEADER.startswith(gap))
 
     def _keep(self, status: Status, *, again: bool) -> None:
         rank = self._rank[status.id]
