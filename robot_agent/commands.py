@@ -18,6 +18,7 @@ from robot_agent.adaptation import ParameterOverrides
 from robot_agent.authority import Authority
 from robot_agent.cruise import Cruise
 from robot_agent.foothold_desk import FootholdDesk
+from robot_agent.forbidden_areas import Area, areas_of
 from robot_agent.ground_memory import GroundMemory
 from robot_agent.leg_desk import LegDesk
 from robot_agent.locomotion.leg_reach import LegReach
@@ -32,6 +33,7 @@ from weaver_shared.messages import (
     Command,
     CommandName,
     Event,
+    ForbiddenAreas,
     LeaseState,
     MissionState,
     MotionOrders,
@@ -76,6 +78,7 @@ class CommandDesk:
         self._mission = Mission(self._limits)
         self.ground = GroundMemory()  # to be filled with the map's tiles
         self._surveyor = WaySurvey(robot, self.ground)
+        self._areas: tuple[Area, ...] = ()
         self._survey = NOTHING_ASKED  # of the command being answered
         self._motion = MotionDesk(robot)
         self._cruise = Cruise(self._limits)
@@ -101,6 +104,7 @@ class CommandDesk:
             CommandName.START_MISSION: self._start_mission,
             CommandName.PAUSE_MISSION: self._pause_mission,
             CommandName.CLEAR_MISSION: self._clear_mission,
+            CommandName.SET_AREAS: self._set_areas,
             CommandName.SKIP_WAYPOINT: self._skip_waypoint,
             CommandName.RETURN_TO_START: self._return_to_start,
             CommandName.SET_OVERRIDE: self._set_override,
@@ -263,6 +267,10 @@ class CommandDesk:
         with self._lock:
             return self._mission.state(stamp_ns)
 
+    def areas(self, stamp_ns: int) -> ForbiddenAreas:
+        with self._lock:
+            return ForbiddenAreas(stamp_ns=stamp_ns, areas=self._areas)
+
     def home(self) -> Waypoint:
         """Where the mission began, to which it returns."""
         with self._lock:
@@ -292,6 +300,7 @@ class CommandDesk:
             names = {CommandName.STOP, CommandName.TAKE_CONTROL, CommandName.RELEASE_CONTROL, CommandName.SET_GAIT}
             names |= {
                 CommandName.SET_MISSION,
+                CommandName.SET_AREAS,
                 CommandName.SET_OVERRIDE,
                 CommandName.CLEAR_OVERRIDE,
                 CommandName.SET_PRESET,
@@ -407,24 +416,44 @@ class CommandDesk:
 
     def _return_to_start(self, _: Command) -> Answer:
         """The applied value is the number of waypoints on the way back."""
-        refusal = self._walk_refusal() or self._mission.turn_back(self._situation.robot_xy)
+        refusal = self._walk_refusal() or self._survey.refusal or self._mission.turn_back(self._situation.robot_xy)
         if refusal:
             return self._refuse(refusal)
         self._cruise.stop()
-        return self._accept(float(len(self._mission.waypoints)))
+        return replace(self._accept(float(len(self._mission.waypoints))), reason=self._survey.remark)
+
+    def _set_areas(self, command: Command) -> Answer:
+        """A mission under way that would come into one of them is paused; the applied value is their number."""
+        try:
+            self._areas = areas_of(command)
+        except InputError as error:
+            return self._refuse(str(error))
+        if self._mission.phase == "active" and self._survey.refusal:
+            self.give_up_mission(self._survey.refusal)
+            reason = f"the mission is paused: {self._survey.refusal}"
+            return replace(self._accept(float(len(self._areas))), reason=reason)
+        return self._accept(float(len(self._areas)))
 
     def _look_at_the_way(self, command: Command) -> Survey:
         """Before the desk is locked: the walk loop does not wait for a long way to be looked at."""
         with self._lock:
             way, begin = self._mission.straight_way(command), self._situation.robot_xy
-            total = len(
-                self._mission.waypoints if command.command is not CommandName.SET_MISSION else command.waypoints
-            )
+            total = max(len(way), len(self._mission.waypoints))
+            if command.command is CommandName.SET_MISSION:
+                total = len(command.waypoints)
+            areas = self._areas
             known = len(way) <= self._limits.waypoint_count and self._situation.mode in ("STAND", "WALK", "HOLD")
         places = all(isfinite(place.x) and isfinite(place.y) for place in way)
         if not (way and known and places):
             return NOTHING_ASKED
-        return self._surveyor.survey(begin, way, total - len(way) + 1)
+        if command.command is CommandName.RETURN_TO_START:
+            total = len(way)
+        elif command.command is CommandName.SET_AREAS:
+            try:
+                areas = areas_of(command)
+            except InputError:
+                return NOTHING_ASKED
+        return self._surveyor.survey(begin, way, total - len(way) + 1, areas)
 
     def _walk_refusal(self) -> str:
         """Why no mission can be walked now, whatever its waypoints."""

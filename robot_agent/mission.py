@@ -50,17 +50,20 @@ class Mission:
         return self.waypoints[self._next :]
 
     def straight_way(self, command: Command) -> tuple[Waypoint, ...]:
-        """The waypoints that this command would have the robot walk to in straight lines, if any; not those of the way
-        back, which it has walked already."""
+        """The waypoints that this command would have the robot walk to in straight lines, if any."""
         if command.command is CommandName.START_MISSION and self.phase in ("ready", "paused"):
             way = self.ahead
         elif command.command is CommandName.SKIP_WAYPOINT and self.phase in ("active", "paused"):
             way = self.waypoints[self._next + 1 :]
         elif command.command is CommandName.SET_MISSION and self.phase == "active" and not command.name:
             way = command.waypoints[self._next :]
+        elif command.command is CommandName.RETURN_TO_START:
+            way = self.way_home()
+        elif command.command is CommandName.SET_AREAS and self.phase == "active":
+            way = self.ahead
         else:
             return ()
-        return () if self.find_way or self._returning else way
+        return () if self.find_way else way
 
     def replace(self, waypoints: Sequence[Waypoint], robot_xy: tuple[float, float], how: str = "") -> str:
         """Take new waypoints; returns why they are refused, or an empty string.

@@ -128,6 +128,8 @@ class Telemetry:
     def _publish_mission(self, tick: WalkTick, desk: CommandDesk) -> None:
         if self._due(topics.MISSION):
             self._publish(topics.MISSION, desk.mission(tick.stamp_ns))
+        if self._due(topics.AREAS):
+            self._publish(topics.AREAS, desk.areas(tick.stamp_ns))
         if self._due(topics.OUTLOOK):
             self._publish(topics.OUTLOOK, self._outlook(tick, desk))
         self._publish_goal(tick)

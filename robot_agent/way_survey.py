@@ -9,6 +9,7 @@ from math import atan, degrees, hypot, tan
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.forbidden_areas import Area, hit
 from robot_agent.ground_memory import GroundMemory
 from weaver_shared.config.navigation import RouteConfig
 from weaver_shared.config.safety import SafetyLimits
@@ -57,12 +58,21 @@ class WaySurvey:
         self._highest_step = RouteConfig().highest_step
         self._steepest = SafetyLimits().tilt_hold  # rad; there it would hold, and not go on
 
-    def survey(self, begin: tuple[float, float], waypoints: Sequence[Waypoint], first: int) -> Survey:
-        """Legs from world `begin` (m) through `waypoints`, the first of which has number `first`."""
+    def survey(
+        self, begin: tuple[float, float], waypoints: Sequence[Waypoint], first: int, areas: Sequence[Area] = ()
+    ) -> Survey:
+        """Legs from world `begin` (m) through `waypoints`, the first of which has number `first`; none may lead into
+        the forbidden `areas`."""
         length = unknown = 0.0
         x, y = begin
         for number, waypoint in enumerate(waypoints, start=first):
             leg = hypot(waypoint.x - x, waypoint.y - y)
+            if (area := hit(areas, (x, y), (waypoint.x, waypoint.y), self._half_width)) is not None:
+                refusal = (
+                    f"the way to waypoint {number} leads into forbidden area {area}; the feet need "
+                    f"{self._half_width:.2f} m on either side of it"
+                )
+                return Survey(refusal=refusal, length=length, unknown=0.0)
             if leg > STEP:
                 places, heights = self._strip((x, y), (waypoint.x, waypoint.y), leg)
                 near = np.hypot(places[..., 0] - begin[0], places[..., 1] - begin[1]) < self._half_width

@@ -34,6 +34,7 @@ WATCHED: tuple[Topic, ...] = (
     topics.MOTION,
     topics.LEASE,
     topics.MISSION,
+    topics.AREAS,
     topics.OUTLOOK,
     topics.RECORDING,
     topics.REPLAY,

@@ -80,6 +80,7 @@ MODE = _topic("state/mode", m.ModeState, 5.0, Priority.INTERACTIVE, Policy.RELIA
 MOTION = _topic("state/motion", m.MotionOrders, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 LEASE = _topic("state/lease", m.LeaseState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
 MISSION = _topic("state/mission", m.MissionState, 5.0, Priority.INTERACTIVE, Policy.RELIABLE)
+AREAS = _topic("state/areas", m.ForbiddenAreas, 1.0, Priority.DATA, Policy.RELIABLE)
 OUTLOOK = _topic("state/outlook", m.MissionOutlook, 2.0, Priority.DATA, Policy.RELIABLE)
 RECORDING = _topic("state/recording", m.RecordingState, 1.0, Priority.DATA, Policy.RELIABLE)
 REPLAY = _topic("state/replay", m.ReplayState, 10.0, Priority.INTERACTIVE, Policy.RELIABLE)

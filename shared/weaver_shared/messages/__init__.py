@@ -42,6 +42,7 @@ from weaver_shared.messages.simulation import (
 )
 from weaver_shared.messages.telemetry import (
     Event,
+    ForbiddenAreas,
     GaitState,
     Health,
     Heartbeat,
@@ -70,6 +71,7 @@ __all__ = [
     "Command",
     "CommandName",
     "Event",
+    "ForbiddenAreas",
     "GaitParameters",
     "GaitState",
     "Health",

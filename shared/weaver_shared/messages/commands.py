@@ -18,6 +18,7 @@ class CommandName(StrEnum):
     START_MISSION = "start_mission"
     PAUSE_MISSION = "pause_mission"
     CLEAR_MISSION = "clear_mission"
+    SET_AREAS = "set_areas"  # replaces the forbidden areas; waypoints: their corners; name: how many each has, "4 3"
     SKIP_WAYPOINT = "skip_waypoint"  # leave out the one being approached
     RETURN_TO_START = "return_to_start"  # walk back to where the mission began, through the waypoints reached
     SET_OVERRIDE = "set_override"  # name, value, seconds

@@ -77,6 +77,14 @@ class MissionState:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ForbiddenAreas:
+    """Polygons that no mission is walked into, as the robot holds them, 1 Hz."""
+
+    stamp_ns: int
+    areas: tuple[tuple[Waypoint, ...], ...]  # corners of each, in world
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class MissionOutlook:
     """What time and energy a mission takes are estimated from, 2 Hz."""
 
