@@ -30,6 +30,7 @@ class KeptMission(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     waypoints: Annotated[list[Place], Field(max_length=CommandLimits().waypoint_count)]
+    areas: Annotated[list[Annotated[list[Place], Field(min_length=3, max_length=400)]], Field(max_length=50)] = []
     operator: Annotated[str, Field(max_length=LONGEST_NAME)] = ""
     robot: Annotated[str, Field(max_length=LONGEST_NAME)] = ""
 
@@ -42,9 +43,13 @@ def add_mission_api(app: FastAPI, store: MissionStore) -> None:
 
     @app.put("/api/missions/{name}")
     async def keep(name: str, mission: KeptMission) -> Response:
-        waypoints = tuple(Waypoint(x=place.x, y=place.y) for place in mission.waypoints)
+        waypoints, *areas = (
+            tuple(Waypoint(x=place.x, y=place.y) for place in part) for part in (mission.waypoints, *mission.areas)
+        )
         try:
-            kept = await asyncio.to_thread(store.save, name, waypoints, mission.operator, mission.robot)
+            kept = await asyncio.to_thread(
+                store.save, name, waypoints, mission.operator, mission.robot, areas=tuple(areas)
+            )
         except InputError as error:
             return JSONResponse({"error": str(error)}, status_code=422)
         except ResourceError as error:

@@ -25,11 +25,13 @@ class SavedMission:
     operator: str
     robot: str
     saved: float
+    areas: tuple[tuple[Waypoint, ...], ...] = ()  # ground that it keeps out of
 
     def to_page(self) -> dict[str, object]:
         return {
             "name": self.name,
             "waypoints": [{"x": place.x, "y": place.y} for place in self.waypoints],
+            "areas": [[{"x": place.x, "y": place.y} for place in area] for area in self.areas],
             "operator": self.operator,
             "robot": self.robot,
             "saved": self.saved,
@@ -48,7 +50,15 @@ class MissionStore:
         rows = self._database.read("select name, waypoints, operator, robot, saved from mission order by saved desc")
         return [_mission(row) for row in rows]
 
-    def save(self, name: str, waypoints: tuple[Waypoint, ...], operator: str, robot: str) -> SavedMission:
+    def save(
+        self,
+        name: str,
+        waypoints: tuple[Waypoint, ...],
+        operator: str,
+        robot: str,
+        *,
+        areas: tuple[tuple[Waypoint, ...], ...] = (),
+    ) -> SavedMission:
         """Keep under this name, in place of what was kept under it."""
         name = _valid(name)
         if not waypoints:
@@ -57,9 +67,16 @@ class MissionStore:
         if name not in names and len(names) >= MOST:
             raise InputError(f"{MOST} missions are kept already; delete one first")
         mission = SavedMission(
-            name=name, waypoints=waypoints, operator=operator, robot=robot, saved=round(self._wall_time(), 3)
+            name=name,
+            waypoints=waypoints,
+            operator=operator,
+            robot=robot,
+            saved=round(self._wall_time(), 3),
+            areas=areas,
         )
-        places = json.dumps([[place.x, place.y] for place in waypoints], allow_nan=False)
+        places = json.dumps(
+            {"waypoints": _pairs(waypoints), "areas": [_pairs(area) for area in areas]}, allow_nan=False
+        )
         self._write("insert or replace into mission values (?, ?, ?, ?, ?)", name, places, operator, robot,
                     mission.saved)  # fmt: skip
         return mission
@@ -77,10 +94,25 @@ class MissionStore:
 
 def _mission(row: tuple[object, ...]) -> SavedMission:
     name, places, operator, robot, saved = row
-    waypoints = tuple(Waypoint(x=x, y=y) for x, y in json.loads(str(places)))
+    kept = json.loads(str(places))
+    if isinstance(kept, list):  # before there were areas
+        kept = {"waypoints": kept, "areas": []}
     return SavedMission(
-        name=str(name), waypoints=waypoints, operator=str(operator), robot=str(robot), saved=float(str(saved))
+        name=str(name),
+        waypoints=_places(kept["waypoints"]),
+        operator=str(operator),
+        robot=str(robot),
+        saved=float(str(saved)),
+        areas=tuple(_places(area) for area in kept["areas"]),
     )
+
+
+def _pairs(places: tuple[Waypoint, ...]) -> list[list[float]]:
+    return [[place.x, place.y] for place in places]
+
+
+def _places(pairs: list[list[float]]) -> tuple[Waypoint, ...]:
+    return tuple(Waypoint(x=x, y=y) for x, y in pairs)
 
 
 def _valid(name: str) -> str:

@@ -49,6 +49,7 @@ class Teleoperation(msgspec.Struct, frozen=True, kw_only=True, tag_field="type",
 class Draft(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="draft"):
     waypoints: list[Place]
     selected: int | None = None
+    areas: Annotated[list[Annotated[list[Place], msgspec.Meta(max_length=400)]], msgspec.Meta(max_length=50)] = []
 
 
 class ChooseLayer(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="layer"):

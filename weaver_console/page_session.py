@@ -300,7 +300,10 @@ class PageSession:
         self._spawn(self._send(request, robot, None))
 
     def _wish_draft(self, draft: p.Draft) -> None:
-        self._wish(draft=tuple(Waypoint(x=place.x, y=place.y) for place in draft.waypoints), selected=draft.selected)
+        places, *areas = (
+            tuple(Waypoint(x=place.x, y=place.y) for place in part) for part in (draft.waypoints, *draft.areas)
+        )
+        self._wish(draft=places, selected=draft.selected, areas=tuple(areas))
 
     def _wish_view(self, view: p.View | p.Measure) -> None:
         if isinstance(view, p.Measure):

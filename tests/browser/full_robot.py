@@ -14,6 +14,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 from wire_robot import WireRobot
 
+from robot_agent.forbidden_areas import Area, areas_of
 from robot_agent.recording.playback import Playback
 from robot_agent.recording.player import Player
 from robot_agent.recording.store import RecordingStore
@@ -22,8 +23,13 @@ from robot_agent.replays import Replays
 from weaver_shared import topics
 from weaver_shared.bus import MemoryBus
 from weaver_shared.clock import MonotonicClock
+from weaver_shared.errors import InputError
 from weaver_shared.messages import (
+    Answer,
     CameraPicture,
+    Command,
+    CommandName,
+    ForbiddenAreas,
     Health,
     LocomotionState,
     LoopTiming,
@@ -39,6 +45,7 @@ class FullRobot(WireRobot):
         super().__init__(bus, robot_id, **settings)
         self.quality, self.temperature = OdometryQuality.GOOD, 41.0
         self.real_time_factor = 1.0
+        self.areas: tuple[Area, ...] = ()
         self._recorder = RecordingProcess(
             robot_id=robot_id,
             robot=self.description,
@@ -65,8 +72,16 @@ class FullRobot(WireRobot):
             self.holder, self.lease_until = "", 0.0
             self.mode, self.stopped, self.phase = "SIT", False, "empty"
             self.waypoints, self.next_waypoint, self.overrides = (), 0, {}
-            self.place, self.commands = np.zeros(2), []
+            self.place, self.commands, self.areas = np.zeros(2), [], ()
             self.quality, self.temperature, self.real_time_factor = OdometryQuality.GOOD, 41.0, 1.0
+
+    def _obey(self, command: Command, now: float) -> Answer:
+        if command.command is CommandName.SET_AREAS:
+            try:
+                self.areas = areas_of(command)
+            except InputError as error:
+                return Answer(accepted=False, reason=str(error))
+        return super()._obey(command, now)
 
     def step(self, dt: float = 0.02) -> None:
         super().step(dt)
@@ -81,6 +96,7 @@ class FullRobot(WireRobot):
             self.bus.publish(self.robot_id, topics.HEALTH, self._health(stamp_ns, "walk"), process="walk")
             self.bus.publish(self.robot_id, topics.HEALTH, self._health(stamp_ns, "vision"), process="vision")
             self._publish(topics.OUTLOOK, self._outlook(stamp_ns))
+            self._publish(topics.AREAS, ForbiddenAreas(stamp_ns=stamp_ns, areas=self.areas))
 
     def _odometry(self, stamp_ns: int) -> OdometryEstimate:
         state = self.state(stamp_ns)

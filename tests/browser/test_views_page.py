@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from visitors import DESK, PHONE
+from visitors import DESK, PHONE, map_of, within
 from wire_robot import ground_height
 
 from weaver_console.scene.page_scene import CAMERA_FROM_ROBOT, LOOK_FROM_ROBOT
@@ -19,28 +19,20 @@ FIELD_OF_VIEW = np.deg2rad(75.0)  # viser's, vertical
 FLAT_PLACE = (1.0, 0.0)
 
 
-def _map(visitor: Any) -> Any:
-    return visitor.page.get_by_role("application", name="Map", exact=True)
-
-
-def _at(box: dict[str, float], across: float, down: float) -> tuple[float, float]:
-    return box["x"] + across * box["width"], box["y"] + down * box["height"]
-
-
 def test_the_map_is_edited_by_mouse_and_by_keys(visit: Callable[..., Any], picture: Callable[[Any, str], None]) -> None:
     anna = visit()
-    box = _map(anna).bounding_box()
+    box = map_of(anna).bounding_box()
     for across in (0.6, 0.8):
-        anna.page.mouse.click(*_at(box, across, 0.5))
-    anna.page.mouse.move(*_at(box, 0.8, 0.5))
+        anna.page.mouse.click(*within(box, across, 0.5))
+    anna.page.mouse.move(*within(box, 0.8, 0.5))
     anna.page.mouse.down()
-    anna.page.mouse.move(*_at(box, 0.75, 0.3), steps=3)
+    anna.page.mouse.move(*within(box, 0.75, 0.3), steps=3)
     anna.page.mouse.up()
     dragged = anna.waypoints.nth(1).get_by_label(re.compile("^y of")).input_value()
     assert float(dragged) > 0.3
-    _map(anna).focus()
+    map_of(anna).focus()
     for key, count in (("Enter", 3), ("Shift+Enter", 4), ("Delete", 3), ("Control+z", 4), ("Control+Shift+Z", 3)):
-        _map(anna).press(key)
+        map_of(anna).press(key)
         anna.waypoints.nth(count - 1).wait_for()
         assert anna.waypoints.count() == count, key
     anna.press("Move waypoint 2 up")
@@ -66,10 +58,10 @@ def test_a_distance_is_measured_and_the_map_saved_as_a_picture(
     anna.press("View options")
     anna.press("Measure")
     anna.page.get_by_text("choose the first place").wait_for()
-    box = _map(anna).bounding_box()
-    anna.page.mouse.click(*_at(box, 0.4, 0.5))
+    box = map_of(anna).bounding_box()
+    anna.page.mouse.click(*within(box, 0.4, 0.5))
     anna.page.get_by_text("choose the second place").wait_for()
-    anna.page.mouse.click(*_at(box, 0.6, 0.5))
+    anna.page.mouse.click(*within(box, 0.6, 0.5))
     measured = anna.page.get_by_role("status", name="Measured")
     measured.filter(has_text=re.compile(r"[0-9.]+ m, 0\.[0-9]+ m (up|down), [0-9]+°")).wait_for()
     assert anna.waypoints.count() == 0
@@ -81,8 +73,8 @@ def test_a_distance_is_measured_and_the_map_saved_as_a_picture(
 
 def test_a_tap_on_a_phone_places_a_waypoint(visit: Callable[..., Any], picture: Callable[[Any, str], None]) -> None:
     anna = visit(size=PHONE, has_touch=True, is_mobile=True)
-    _map(anna).scroll_into_view_if_needed()
-    anna.page.touchscreen.tap(*_at(_map(anna).bounding_box(), 0.6, 0.4))
+    map_of(anna).scroll_into_view_if_needed()
+    anna.page.touchscreen.tap(*within(map_of(anna).bounding_box(), 0.6, 0.4))
     anna.waypoints.first.wait_for()
     picture(anna, "phone")
     assert anna.page.evaluate("document.documentElement.scrollWidth") <= PHONE[0]
@@ -114,24 +106,24 @@ def test_the_3d_view_places_and_drags_waypoints_and_stops_by_key(
     anna.page.wait_for_timeout(3000)
     box = frame.bounding_box()
     aspect = box["width"] / box["height"]
-    anna.page.mouse.click(*_at(box, *_seen(_ground(*FLAT_PLACE), robot, aspect)))
+    anna.page.mouse.click(*within(box, *_seen(_ground(*FLAT_PLACE), robot, aspect)))
     anna.waypoints.first.wait_for()
     x, y = (float(anna.waypoints.first.get_by_label(re.compile(f"^{axis} of")).input_value()) for axis in "xy")
     assert np.hypot(x - FLAT_PLACE[0], y - FLAT_PLACE[1]) < 0.06
     anna.page.wait_for_timeout(3000)
-    anna.page.mouse.move(*_at(box, *_seen(_ground(x, y, above=0.30), robot, aspect)))
+    anna.page.mouse.move(*within(box, *_seen(_ground(x, y, above=0.30), robot, aspect)))
     anna.page.wait_for_timeout(1000)
     anna.page.mouse.down()
     to = _seen(_ground(x, y, above=0.30), robot, aspect)
     for step in (0.02, 0.05, 0.08, 0.1):
-        anna.page.mouse.move(*_at(box, to[0] + step, to[1]))
+        anna.page.mouse.move(*within(box, to[0] + step, to[1]))
         anna.page.wait_for_timeout(400)
     anna.page.mouse.up()
     row = anna.waypoints.first.get_by_label(re.compile("^y of"))
     _until(anna, lambda: abs(float(row.input_value()) - y) > 0.05)
     assert anna.waypoints.count() == 1
     picture(anna, "scene")
-    anna.page.mouse.click(*_at(box, 0.5, 0.05))  # the focus goes into the frame
+    anna.page.mouse.click(*within(box, 0.5, 0.05))  # the focus goes into the frame
     anna.page.keyboard.press("Space")
     anna.see_state("ESTOP")
     assert stage.robot.stopped

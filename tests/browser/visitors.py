@@ -64,3 +64,12 @@ class Visitor:
     @property
     def waypoints(self) -> Any:
         return self.page.get_by_role("list", name="Waypoints").get_by_role("listitem")
+
+
+def map_of(visitor: Visitor) -> Any:
+    return visitor.page.get_by_role("application", name="Map", exact=True)
+
+
+def within(box: dict[str, float], across: float, down: float) -> tuple[float, float]:
+    """A place within a box, by shares of its width and height."""
+    return box["x"] + across * box["width"], box["y"] + down * box["height"]

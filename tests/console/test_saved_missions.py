@@ -13,6 +13,7 @@ from weaver_shared.errors import InputError, ResourceError
 from weaver_shared.messages import Waypoint
 
 PLACES = (Waypoint(x=1.0, y=-0.5), Waypoint(x=2.25, y=0.0))
+AREA = (Waypoint(x=4.0, y=0.0), Waypoint(x=5.0, y=0.0), Waypoint(x=5.0, y=1.0))
 BODY = {"waypoints": [{"x": 1.0, "y": -0.5}], "operator": "anna", "robot": "sim-1"}
 
 
@@ -38,6 +39,14 @@ def test_the_same_name_replaces_and_the_newest_comes_first() -> None:
     assert [(one.name, len(one.waypoints)) for one in store.all()] == [("a", 1), ("b", 2)]
     assert store.delete("a")
     assert not store.delete("a")
+
+
+def test_what_a_mission_keeps_out_of_is_kept_with_it() -> None:
+    database = Database(None)
+    store = MissionStore(database)
+    store.save("new", PLACES, "", "", areas=(AREA, AREA[::-1]))
+    database.write("insert into mission values (?, ?, ?, ?, ?)", [("old", "[[1.0, 2.0]]", "", "", 0.0)])
+    assert [(one.name, one.areas) for one in store.all()] == [("new", (AREA, AREA[::-1])), ("old", ())]
 
 
 @pytest.mark.parametrize("name", ["", "  ", "x" * (LONGEST_NAME + 1), "two\nlines", "\x00"])

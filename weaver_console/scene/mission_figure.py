@@ -162,7 +162,7 @@ class MissionFigure:
         circles = [chained(_circle(ground, foot, radius)) for foot, radius in zip(feet, radii, strict=True)]
         drawn.circles.show_in(np.concatenate(circles), np.repeat(shades, len(CIRCLE) - 1, axis=0))
         ahead = course.places[course.reached :]
-        path = chained(_draped(ground, ahead)) if len(ahead) > 1 else NONE
+        path = chained(draped(ground, ahead)) if len(ahead) > 1 else NONE
         drawn.path.show_in(path, np.tile(np.array(course.colour, dtype=np.uint8), (len(path), 1)))
         drawn.corridor.show(self._corridor(ground, ahead))
 
@@ -173,7 +173,7 @@ class MissionFigure:
             length = float(np.linalg.norm(end - begin))
             if length > 1e-6:
                 aside = self._half_width * np.array([begin[1] - end[1], end[0] - begin[0]]) / length
-                borders += [chained(_draped(ground, [begin + side, end + side])) for side in (aside, -aside)]
+                borders += [chained(draped(ground, [begin + side, end + side])) for side in (aside, -aside)]
         return np.concatenate(borders)
 
     def _update_leg(self, ground: Ground, robot_position: Array | None, course: Course) -> None:
@@ -187,7 +187,7 @@ class MissionFigure:
             return
         self._leg_shown = wanted
         start = () if robot_position is None else (float(robot_position[0]), float(robot_position[1]))
-        points = _draped(ground, [start, ahead[0]]) if wanted is not None and len(start) == 2 else np.zeros((0, 3))
+        points = draped(ground, [start, ahead[0]]) if wanted is not None and len(start) == 2 else np.zeros((0, 3))
         self._leg.colour(course.colour)
         self._leg.chain(points)
         self._leg_corridor.colour(course.colour)
@@ -199,7 +199,7 @@ def _circle(ground: Ground, foot: Array, radius: float) -> Array:
     return np.array([[x, y, _height(ground, x, y, foot[2]) + LIFT] for x, y in places.tolist()])
 
 
-def _draped(ground: Ground, places: Sequence[Place]) -> Array:
+def draped(ground: Ground, places: Sequence[Place]) -> Array:
     """The path with its height over the ground every few centimetres, (n, 3)."""
     corners = np.array(places)
     points = []

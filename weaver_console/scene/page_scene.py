@@ -19,6 +19,7 @@ import viser
 from numpy.typing import NDArray
 
 from weaver_console.robot_record import RobotRecord
+from weaver_console.scene.area_figure import AreaFigure
 from weaver_console.scene.contours import ContourFigure
 from weaver_console.scene.ground import Ground
 from weaver_console.scene.layers import Legend
@@ -71,6 +72,7 @@ class Wishes:
     contours: bool = False
     torques: bool = False
     measure: tuple[Waypoint, ...] = ()
+    areas: tuple[tuple[Waypoint, ...], ...] = ()
 
 
 @dataclass(slots=True)
@@ -86,6 +88,7 @@ class _Shown:
     mission: MissionFigure
     contours: ContourFigure
     measure: MeasureFigure
+    areas: AreaFigure
     frusta: dict[str, Any] = field(default_factory=dict)
     followed: Array | None = None
     drawn: RobotState | None = None
@@ -160,6 +163,7 @@ class PageScene:
         state = record.newest("tele/state", RobotState)
         shown.contours.update(record.ground, wishes.contours)
         shown.measure.update(record.ground, wishes.measure)
+        shown.areas.update(record.ground, wishes.areas)
         mission = record.mission
         shown.mission.update(
             record.ground,
@@ -225,6 +229,7 @@ class PageScene:
             ),
             contours=ContourFigure(scene, "/world/contours"),
             measure=MeasureFigure(scene, "/world/measure"),
+            areas=AreaFigure(scene, "/world/areas"),
         )
         if robot is not None and robot.has_camera:
             self._shown.frusta = _add_frusta(scene, robot)

@@ -25,6 +25,7 @@ const LIMITS: readonly (readonly [prefix: string, limits: Limits])[] = [
   ["tele/map", { stale: Infinity, lost: Infinity }],
   ["tele/", { stale: 1, lost: 5 }],
   ["state/calibration", { stale: Infinity, lost: Infinity }],
+  ["state/areas", { stale: 4, lost: 10 }],
   ["state/outlook", { stale: 2, lost: 5 }],
   ["state/recording", { stale: 4, lost: 10 }],
   ["state/", { stale: 1, lost: 5 }],

@@ -1,7 +1,8 @@
 /** What a message of the console sets going beside the store: terrain, history, draft, answers and notices. */
+import { cornerAt, followAreas, resetAreas } from "../areas/areaStore";
 import { type TileMessage } from "../map/tiles";
 import { useDraft } from "../mission/draftStore";
-import type { AdaptationReport, GaitState, MissionState, RobotState } from "../protocol/messages";
+import type { AdaptationReport, ForbiddenAreas, GaitState, MissionState, RobotState } from "../protocol/messages";
 import type { Incoming } from "../protocol/wire";
 import { settleAnswer } from "./commands";
 import { rememberOperator } from "./identity";
@@ -41,7 +42,8 @@ export function react(message: Incoming, now: number): void {
       settleAnswer(message);
       break;
     case "picked":
-      if (!measureAt(message)) useDraft.getState().dispatch({ type: "add", waypoint: { x: message.x, y: message.y } });
+      if (!measureAt(message) && !cornerAt(message))
+        useDraft.getState().dispatch({ type: "add", waypoint: { x: message.x, y: message.y } });
       break;
     case "missed":
       notify("info", `Nothing was placed: ${message.reason}.`);
@@ -69,6 +71,7 @@ function keep(key: string, value: unknown, received: number): void {
   if (key.startsWith("tele/map/tile/")) terrain.put(key, value as TileMessage, received);
   else if (key === "tele/state") history.addState(value as RobotState, costOfTransport());
   else if (key === "tele/gait") history.addGait(value as GaitState);
+  else if (key === "state/areas") followAreas((value as ForbiddenAreas).areas);
   else if (key === "state/mission") useDraft.getState().follow((value as MissionState).waypoints);
   else if (key === "tele/adaptation") history.addAdaptation(value as AdaptationReport);
 }
@@ -84,6 +87,7 @@ function changeRobot(robot: string | null): void {
   shown = robot;
   history.clear();
   useDraft.getState().reset();
+  resetAreas();
 }
 
 /** A new connection knows nothing of what this page showed before. */

@@ -3,6 +3,7 @@ import { create } from "zustand";
 import type {
   AdaptationReport,
   CalibrationState,
+  ForbiddenAreas,
   GaitState,
   Health,
   LeaseState,
@@ -31,6 +32,7 @@ export interface Topics {
   "state/motion": MotionOrders;
   "state/lease": LeaseState;
   "state/mission": MissionState;
+  "state/areas": ForbiddenAreas;
   "state/outlook": MissionOutlook;
   "state/recording": RecordingState;
   "state/replay": ReplayState;

@@ -1,9 +1,11 @@
 /** The whole picture of the 2-D map, back to front. */
+import type { Area } from "../areas/geometry";
 import { terrain, history } from "../console/live";
 import type { Freshness } from "../console/freshness";
 import type { MissionState, RobotState, TruthState, Waypoint } from "../protocol/messages";
 import type { ColourScale } from "./colourScale";
 import { drawGrid, drawUnknownGround } from "./ground";
+import { drawAreas } from "./areaMarks";
 import { drawMeasure } from "./measureMarks";
 import { drawCorridor, drawLookahead, drawPath, drawTrail, drawWaypoint } from "./missionMarks";
 import { drawRobot, drawTruth } from "./robotMark";
@@ -29,6 +31,8 @@ export interface Scene {
   /** How far beside the way feet are expected, m. */
   halfWidth: number;
   measure: readonly Waypoint[];
+  areas: readonly Area[];
+  drawing: Area | null;
   ink: Ink;
 }
 
@@ -37,6 +41,7 @@ export function renderMap(context: CanvasRenderingContext2D, painter: TilePainte
   drawUnknownGround(context, view, ink);
   if (scene.scale !== null) drawTerrain(context, painter, view, scene.scale, scene.contours);
   drawGrid(context, view, ink);
+  drawAreas(context, view, scene.areas, scene.drawing, ink);
   drawTrail(context, view, history.trail, ink);
   const robot = state === undefined ? null : positionOf(state.position_in_world);
   const running = mission?.phase === "active" || mission?.phase === "paused";

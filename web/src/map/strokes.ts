@@ -11,6 +11,7 @@ export interface Ink {
   trail: string;
   robot: string;
   truth: string;
+  forbidden: string;
 }
 
 export type Context = CanvasRenderingContext2D;

@@ -1,6 +1,7 @@
 /** Draws the map whenever something on it changed, at the screen's resolution, and at its pace under a hand. */
 import { useComputedColorScheme } from "@mantine/core";
 import { type RefObject, useEffect, useMemo } from "react";
+import { useAreas } from "../areas/areaStore";
 import { freshnessOf } from "../console/useLatest";
 import { terrain } from "../console/live";
 import { usePreferences } from "../console/preferences";
@@ -27,6 +28,7 @@ export const INKS: Record<"light" | "dark", Ink> = {
     trail: "#44525f",
     robot: "#075a70",
     truth: "#a04000",
+    forbidden: "#b3131f",
   },
   dark: {
     ground: "#1a222b",
@@ -38,6 +40,7 @@ export const INKS: Record<"light" | "dark", Ink> = {
     trail: "#c2ccd6",
     robot: "#5fd3ef",
     truth: "#ffb35c",
+    forbidden: "#ff6b6b",
   },
 };
 
@@ -67,6 +70,7 @@ export function useMapDrawing(
       const { view: options } = usePreferences.getState();
       const contours = options.contours;
       const measure = useMeasure.getState().places;
+      const { areas, drawing } = useAreas.getState();
       const halfWidth = selectedRobot(state)?.motion?.half_width ?? 0;
       const shown = [
         view.current,
@@ -78,6 +82,8 @@ export function useMapDrawing(
         truth,
         contours,
         measure,
+        areas,
+        drawing,
         halfWidth,
         terrain.version,
         devicePixelRatio,
@@ -101,6 +107,8 @@ export function useMapDrawing(
         contours,
         halfWidth,
         measure,
+        areas,
+        drawing,
         ink,
       });
     };

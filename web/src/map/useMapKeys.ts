@@ -1,5 +1,6 @@
 /** Does on the map what its keys mean. */
 import type { KeyboardEvent } from "react";
+import { cornerAt } from "../areas/areaStore";
 import { measureAt } from "../measure/measureStore";
 import { useDraft } from "../mission/draftStore";
 import { insertionIndex } from "../mission/path";
@@ -47,7 +48,7 @@ export function useMapKeys(map: MapView): (event: KeyboardEvent) => void {
 
 /** At the end, or in the leg that it lengthens least. */
 export function addWaypoint(waypoint: Point, insert: boolean): void {
-  if (measureAt(waypoint)) return;
+  if (measureAt(waypoint) || cornerAt(waypoint)) return;
   const { draft, dispatch } = useDraft.getState();
   if (insert) dispatch({ type: "insert", index: insertionIndex(draft.waypoints, waypoint), waypoint });
   else dispatch({ type: "add", waypoint });

@@ -1,5 +1,7 @@
 /** Editing, sending and watching a mission. */
 import { Button } from "@mantine/core";
+import { ForbiddenAreas } from "../areas/ForbiddenAreas";
+import { useAreas, sameAreas } from "../areas/areaStore";
 import { Panel } from "../components/Panel";
 import { fixed } from "../components/format";
 import { useLatest } from "../console/useLatest";
@@ -17,7 +19,8 @@ export function MissionPanel() {
   const { draft, dispatch } = useDraft();
   const onRobot = useLatest("state/mission")?.waypoints;
   const start = useLatest("tele/state")?.position_in_world;
-  const unsent = !sameWaypoints(draft.waypoints, onRobot ?? []);
+  const { areas, onRobot: areasOnRobot } = useAreas();
+  const unsent = !sameWaypoints(draft.waypoints, onRobot ?? []) || !sameAreas(areas, areasOnRobot);
   const length = pathLength(draft.waypoints, start === undefined ? null : positionOf(start));
   return (
     <Panel
@@ -31,6 +34,7 @@ export function MissionPanel() {
       }
     >
       <WaypointList />
+      <ForbiddenAreas />
       <div className="button-row">
         <Button
           size="xs"

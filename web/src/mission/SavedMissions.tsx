@@ -3,6 +3,7 @@ import { Button, TextInput } from "@mantine/core";
 import { type FormEvent, useCallback, useEffect, useState } from "react";
 import { selectedRobot } from "../console/control";
 import { notify } from "../console/notices";
+import { loadAreas, useAreas } from "../areas/areaStore";
 import { useConsole } from "../console/store";
 import { useDraft } from "./draftStore";
 import { type SavedMission, deleteMission, listMissions, saveMission } from "./savedMissions";
@@ -31,6 +32,7 @@ export function SavedMissions() {
 function SaveForm({ missions, onSaved }: { missions: readonly SavedMission[]; onSaved(): Promise<void> }) {
   const [name, setName] = useState("");
   const waypoints = useDraft((state) => state.draft.waypoints);
+  const areas = useAreas((state) => state.areas);
   const operator = useConsole((state) => state.hello?.operator ?? "");
   const robot = useConsole(selectedRobot)?.id ?? "";
   const trimmed = name.trim();
@@ -38,7 +40,7 @@ function SaveForm({ missions, onSaved }: { missions: readonly SavedMission[]; on
   const save = (event: FormEvent) => {
     event.preventDefault();
     void attempt(async () => {
-      await saveMission({ name: trimmed, waypoints: [...waypoints], operator, robot });
+      await saveMission({ name: trimmed, waypoints: [...waypoints], areas: areas.map((area) => [...area]), operator, robot });
       setName("");
       await onSaved();
     });
@@ -67,7 +69,7 @@ function SaveForm({ missions, onSaved }: { missions: readonly SavedMission[]; on
 }
 
 function SavedRow({ mission, onDeleted }: { mission: SavedMission; onDeleted(): Promise<void> }) {
-  const { name, waypoints, operator, saved } = mission;
+  const { name, waypoints, areas, operator, saved } = mission;
   const dispatch = useDraft((state) => state.dispatch);
   const remove = () =>
     void attempt(async () => {
@@ -85,7 +87,10 @@ function SavedRow({ mission, onDeleted }: { mission: SavedMission; onDeleted(): 
         size="compact-xs"
         variant="default"
         aria-label={`Load ${name}`}
-        onClick={() => dispatch({ type: "load", waypoints })}
+        onClick={() => {
+          dispatch({ type: "load", waypoints });
+          loadAreas(areas);
+        }}
       >
         Load
       </Button>

@@ -1,5 +1,6 @@
 /** The one draft of this page, shared by list, map and 3-D view. Each change is shown in the 3-D view too. */
 import { create } from "zustand";
+import { useAreas } from "../areas/areaStore";
 import { send } from "../console/outbox";
 import type { Waypoint } from "../protocol/messages";
 import { type Draft, type DraftAction, EMPTY_DRAFT, reduceDraft, sameWaypoints } from "./draft";
@@ -49,7 +50,9 @@ export const useDraft = create<DraftStore>((set, get) => ({
   publish() {
     timer ??= setTimeout(() => {
       timer = undefined;
-      send({ type: "draft", waypoints: shownWaypoints(get()), selected: get().draft.selected });
+      const { areas, drawing } = useAreas.getState();
+      const shown = drawing === null || drawing.length < 2 ? areas : [...areas, drawing];
+      send({ type: "draft", waypoints: shownWaypoints(get()), selected: get().draft.selected, areas: shown });
     }, PUBLISH_PERIOD);
   },
 }));

@@ -4,6 +4,8 @@ import type { Waypoint } from "../protocol/messages";
 export interface SavedMission {
   name: string;
   waypoints: Waypoint[];
+  /** Forbidden ground that belongs to it. */
+  areas: Waypoint[][];
   operator: string;
   robot: string;
   /** Unix time, s. */

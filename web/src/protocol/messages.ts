@@ -23,6 +23,7 @@ export const COMMAND_NAMES = [
   "start_mission",
   "pause_mission",
   "clear_mission",
+  "set_areas",
   "skip_waypoint",
   "return_to_start",
   "set_override",
@@ -87,6 +88,12 @@ export interface MissionState {
   cross_track_error: Maybe;
   distance_left: Maybe;
   lookahead_in_world: Maybe[];
+}
+
+/** Ground that no mission is walked into. */
+export interface ForbiddenAreas {
+  stamp_ns: number;
+  areas: Waypoint[][];
 }
 
 /** What time and energy of a mission are estimated from. */

@@ -155,7 +155,12 @@ export type Outgoing =
   | { type: "ask_for_control"; reason: string }
   | { type: "answer_request"; asker: string; grant: boolean }
   | { type: "teleop"; forward: number; left: number; turn: number; dead_man: boolean }
-  | { type: "draft"; waypoints: readonly Waypoint[]; selected: number | null }
+  | {
+      type: "draft";
+      waypoints: readonly Waypoint[];
+      selected: number | null;
+      areas: readonly (readonly Waypoint[])[];
+    }
   | { type: "layer"; name: string }
   | {
       type: "view";

@@ -1,0 +1,63 @@
+"""A mission from the first click to the way back, with ground that is forbidden."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from visitors import map_of, within
+
+from weaver_shared.messages import CommandName
+
+pytestmark = pytest.mark.browser
+
+
+def test_a_way_through_forbidden_ground_is_refused_until_the_area_is_gone(
+    visit: Callable[..., Any], stage: Any, picture: Callable[[Any, str], None]
+) -> None:
+    anna = visit()
+    anna.stand()
+    box = map_of(anna).bounding_box()
+    anna.page.mouse.click(*within(box, 0.85, 0.5))
+    anna.waypoints.first.wait_for()
+    anna.press("Forbid an area")
+    for across, down in ((0.6, 0.4), (0.7, 0.4), (0.7, 0.6)):
+        anna.page.mouse.click(*within(box, across, down))
+    map_of(anna).focus()
+    map_of(anna).press("Enter")  # a fourth corner by key, in the middle of the map
+    anna.press("Take back corner")
+    anna.press("Close area")
+    anna.page.get_by_text("Refused: the way to waypoint 1 leads into forbidden area 1").wait_for()
+    assert anna.button("Start mission").is_disabled()
+    picture(anna, "forbidden")
+
+    anna.page.get_by_text(re.compile("^Saved missions")).click()
+    anna.page.get_by_role("textbox", name="Mission name").fill("round the pit")
+    anna.press("Save mission")
+    anna.button("Load round the pit").wait_for()
+    anna.press("Delete area 1")
+    anna.press("Load round the pit")
+    areas = anna.page.get_by_role("list", name="Forbidden areas").get_by_role("listitem")
+    areas.first.wait_for()
+    anna.press("Delete round the pit")
+    map_of(anna).focus()
+    map_of(anna).press("n")
+    for _ in range(2):
+        map_of(anna).press("Delete")
+    anna.page.mouse.click(*within(box, 0.5, 0.2))
+    anna.press("Start mission")
+    anna.see_state("WALK")
+    assert [len(area) for area in stage.robot.areas] == [3]
+    anna.page.locator(".mission .reading", has_text="Cross-track error").filter(has_text="0.01").wait_for()
+    anna.page.get_by_text("under way, waypoint 1 of 1").wait_for()
+    anna.press("Pause mission")
+    anna.see_state("STAND")
+    for button in ("Skip waypoint", "Return to start"):
+        anna.press(button)
+    names = [command.command for command in stage.robot.commands]
+    wanted = [CommandName.SET_AREAS, CommandName.SET_MISSION, CommandName.START_MISSION, CommandName.PAUSE_MISSION]
+    assert [name for name in names if name in wanted] == wanted
+    anna.page.wait_for_timeout(300)
+    assert {CommandName.SKIP_WAYPOINT, CommandName.RETURN_TO_START} <= {c.command for c in stage.robot.commands}
