@@ -35,7 +35,8 @@ def main(arguments: list[str]) -> int:
     access = Access(host=options.host, database=database, guarded=bool(options.trusted_proxy) or options.login)
     listener = _listen(options.host, options.port)
     try:
-        link = Link(ZenohBus(listen=options.listen or ["tcp/127.0.0.1:7447"], connect=options.connect or []))
+        endpoints = options.listen or ["tcp/127.0.0.1:7447"]
+        link = Link(ZenohBus(listen=endpoints, connect=options.connect or [], newest_only=True))
         app = create_app(Hub(link, database=database, scenes=not options.no_scene), access, data=options.data)
         server = web_server(
             app, trusted_proxies=options.trusted_proxy or (), certificate=options.tls_certificate, key=options.tls_key

@@ -6,12 +6,14 @@ import json
 import logging
 import socket
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Protocol, TypeVar
 
 import zenoh
 
 from weaver_shared import codec
+from weaver_shared.bus_drain import Drain
+from weaver_shared.bus_security import own_settings
 from weaver_shared.errors import MessageError, ResourceError
 from weaver_shared.messages import Answer, Command
 from weaver_shared.topics import COMMANDS, ROOT, Policy, Priority, Query, Topic, robot_key
@@ -145,9 +147,21 @@ class ZenohBus:
     connect to each other, so the death of any process leaves the rest in touch.
     """
 
-    def __init__(self, *, listen: Iterable[str] = ("tcp/127.0.0.1:0",), connect: Iterable[str] = ()) -> None:
+    def __init__(
+        self,
+        *,
+        listen: Iterable[str] = ("tcp/127.0.0.1:0",),
+        connect: Iterable[str] = (),
+        settings: Mapping[str, object] | None = None,
+        newest_only: bool = False,
+    ) -> None:
+        """`settings` of Zenoh replace the usual ones; if None, those of a guarded bus that the environment names.
+        With `newest_only`, messages that a newer one of their key has overtaken are left out, unless each counts.
+
+        Raises ResourceError when the endpoints can not be listened on.
+        """
         config = zenoh.Config()
-        settings: dict[str, object] = {
+        usual: dict[str, object] = {
             "mode": "peer",
             "listen/endpoints": list(listen),
             "connect/endpoints": list(connect),
@@ -158,12 +172,17 @@ class ZenohBus:
             "scouting/gossip/enabled": True,
             "transport/link/tx/lease": 2000,
         }
-        for key, value in settings.items():
+        asked = own_settings() if settings is None else settings
+        for key, value in {**usual, **asked}.items():
             config.insert_json5(key, json.dumps(value))
         try:
             self._session = zenoh.open(config)
         except zenoh.ZError as error:
+            if asked.get("mode") == "client":
+                who, where = asked["transport/auth/usrpwd/user"], ", ".join(connect)
+                raise ResourceError(f"the router at {where} is not there or does not let {who} in: {error}") from error
             raise ResourceError(f"the bus can not listen on {', '.join(listen)}: {error}") from error
+        self._drain = Drain(self._keeping) if newest_only else None
         self._publishers: dict[str, zenoh.Publisher] = {}
         self._last: dict[str, bytes] = {}
         self._lock = threading.Lock()
@@ -196,10 +215,19 @@ class ZenohBus:
     def subscribe(self, robot_id: str, topic: Topic, receiver: Receiver) -> None:
         pattern = f"{ROOT}/{robot_id}/{topic.pattern}"
 
-        def receive(sample: zenoh.Sample) -> None:
-            self._deliver(str(sample.key_expr), sample.payload.to_bytes(), topic, receiver)
-
-        self._kept.append(self._session.declare_subscriber(pattern, receive))
+        if self._drain is not None:
+            self._drain.declare(
+                pattern,
+                lambda key, data: self._deliver(key, data, topic, receiver),
+                each_counts=topic.policy is Policy.LOGGED,
+            )
+        else:
+            self._kept.append(
+                self._session.declare_subscriber(
+                    pattern,
+                    lambda sample: self._deliver(str(sample.key_expr), sample.payload.to_bytes(), topic, receiver),
+                )
+            )
         if topic.policy is Policy.RELIABLE:
             self._reliable.append((pattern, topic, receiver))
             self._fetch(pattern, topic, receiver)
@@ -264,7 +292,13 @@ class ZenohBus:
     def close(self) -> None:
         with self._lock:
             self._closed = True
+        if self._drain is not None:
+            self._drain.close()
         self._session.close()  # type: ignore[no-untyped-call]
+
+    def _keeping(self, pattern: str, room: int) -> Any:
+        channel: Any = zenoh.handlers.RingChannel(room)
+        return self._session.declare_subscriber(pattern, channel)
 
     def _serve_last_values(self, robot_id: str) -> None:
         if robot_id in self._queryable_of:

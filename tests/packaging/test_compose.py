@@ -14,9 +14,20 @@ ROOT = Path(__file__).resolve().parents[2]
 SERVICES: dict[str, dict[str, Any]] = yaml.safe_load((ROOT / "docker-compose.yml").read_text())["services"]
 
 
-@pytest.mark.parametrize("service", sorted(SERVICES))
-def test_every_service_runs_a_command_that_takes_its_options(service: str) -> None:
-    name, *options = SERVICES[service]["command"]
+GUARDED: dict[str, dict[str, Any]] = yaml.safe_load((ROOT / "docker-compose.guarded.yml").read_text())["services"]
+
+
+def test_the_guarded_bus_is_between_the_same_parts() -> None:
+    assert set(GUARDED) <= set(SERVICES)
+
+
+@pytest.mark.parametrize(
+    "command",
+    [service["command"] for services in (SERVICES, GUARDED) for service in services.values()],
+    ids=lambda command: " ".join(command)[:40],
+)
+def test_every_service_runs_a_command_that_takes_its_options(command: list[str]) -> None:
+    name, *options = command
     (entry,) = entry_points(group="weaver.commands", name=name)
     module = importlib.import_module(entry.module)
     module._parser().parse_args(options)

@@ -13,7 +13,7 @@ import zenoh
 from weaver_shared import topics
 from weaver_shared.bus import Bus, MemoryBus, ZenohBus, free_port
 from weaver_shared.errors import ConfigurationError, ResourceError
-from weaver_shared.messages import Answer, Command, CommandName, Heartbeat, LeaseState
+from weaver_shared.messages import Answer, Command, CommandName, Event, Heartbeat, LeaseState, Severity
 
 PATIENCE = 10.0  # s, never spent when all is well
 
@@ -233,3 +233,43 @@ def test_publishing_after_closing_is_harmless() -> None:
     bus = ZenohBus()
     bus.close()
     bus.publish("w1", topics.HEARTBEAT, beat(1))
+
+
+def test_who_wants_only_the_newest_gets_it_and_every_event() -> None:
+    endpoint = f"tcp/127.0.0.1:{free_port()}"
+    console, robot = ZenohBus(listen=[endpoint], newest_only=True), ZenohBus(connect=[endpoint])
+    beats: list[int] = []
+    texts: list[str] = []
+    came = threading.Event()
+    held = threading.Event()
+
+    def beat(_robot: str, _key: str, heartbeat: Heartbeat) -> None:
+        beats.append(heartbeat.sequence)
+        came.set()
+        held.wait(10.0)  # a console that is short of computing time
+
+    console.subscribe("*", topics.HEARTBEAT, beat)
+    console.subscribe("*", topics.EVENT, lambda _robot, _key, event: texts.append(event.text))
+    try:
+        for sequence in range(200):
+            robot.publish("w1", topics.HEARTBEAT, Heartbeat(stamp_ns=0, sequence=sequence, session="a"))
+            if came.wait(0.05):
+                break
+        first = beats[-1]
+        for number in range(100):
+            robot.publish("w1", topics.HEARTBEAT, Heartbeat(stamp_ns=0, sequence=1000 + number, session="a"))
+            event = Event(stamp_ns=0, severity=Severity.INFO, source="walk", text=str(number))
+            robot.publish("w1", topics.EVENT, event)
+        for _ in range(200):  # until all of it waits on this side
+            robot.publish("w1", topics.EVENT, Event(stamp_ns=0, severity=Severity.INFO, source="walk", text="last"))
+            held.set()
+            if came.wait(0.05) and "last" in texts and beats[-1] == 1099:
+                break
+    finally:
+        held.set()
+        robot.close()
+        console.close()
+    assert beats[-1] == 1099
+    assert beats == sorted(set(beats))
+    assert first in beats
+    assert [text for text in texts if text != "last"] == [str(number) for number in range(100)]

@@ -8,7 +8,7 @@ import sys
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from types import TracebackType
 
 from weaver_shared.errors import ResourceError
@@ -20,8 +20,12 @@ PAGE = os.sysconf("SC_PAGE_SIZE")
 class MeasuredProcess:
     """One `python -m MODULE ...`, ended with the block that it was started in."""
 
-    def __init__(self, module: str, *arguments: str) -> None:
-        self._process = subprocess.Popen([sys.executable, "-m", module, *arguments], stdout=subprocess.DEVNULL)
+    def __init__(self, module: str, *arguments: str, environment: Mapping[str, str] | None = None) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", module, *arguments],
+            stdout=subprocess.DEVNULL,
+            env={**os.environ, **(environment or {})},
+        )
         self._name = module
 
     def __enter__(self) -> MeasuredProcess:
@@ -58,9 +62,13 @@ class MeasuredProcess:
             return int(file.read().split()[1]) * PAGE
 
 
-def console_process(port: int, data: str, *options: str) -> MeasuredProcess:
+def console_process(
+    port: int, data: str, *options: str, environment: Mapping[str, str] | None = None
+) -> MeasuredProcess:
     """A console that answers on this port. Raises ResourceError when it does not within 30 s."""
-    console = MeasuredProcess("weaver_shared.command_line", "console", "--port", str(port), "--data", data, *options)
+    console = MeasuredProcess(
+        "weaver_shared.command_line", "console", "--port", str(port), "--data", data, *options, environment=environment
+    )
     try:
         wait_for_health(f"http://127.0.0.1:{port}", [console])
     except BaseException:
