@@ -6,15 +6,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from robot_agent.hardware.servos.port import PortLostError
-from sim_agent.servo_bus.bus import EmulatedBus
-from sim_agent.servo_bus.wire import WaitingPort, Wire
+from sim_agent.servo_bus.wire import Answering, WaitingPort, Wire
 from weaver_shared.clock import SimulatedClock
 
 
 class VirtualPort(WaitingPort):
     """The SDK's port class on an emulated bus; waiting for an answer moves the clock instead of the sun."""
 
-    def __init__(self, bus: EmulatedBus, clock: SimulatedClock, name: str = "emulated") -> None:
+    def __init__(self, bus: Answering, clock: SimulatedClock, name: str = "emulated") -> None:
         super().__init__(name)
         self.bus = bus
         self.wire = Wire(bus)

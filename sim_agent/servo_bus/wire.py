@@ -4,20 +4,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Protocol
 
 from dynamixel_sdk import PortHandler
 
 from robot_agent.hardware.servos.port import ServoPort
-from sim_agent.servo_bus.bus import EmulatedBus, Reply
+from sim_agent.servo_bus.bus import Reply
 from weaver_shared.clock import SimulatedClock
 
 _NS_PER_MS = 1_000_000
 
 
-class Wire:
-    """An emulated bus, and its answers that have not arrived yet."""
+class Answering(Protocol):
+    def transmit(self, data: bytes, now_ns: int) -> list[Reply]:
+        """The answers to bytes on the line, each with the time at which the computer has it."""
+        ...
 
-    def __init__(self, bus: EmulatedBus) -> None:
+
+class Wire:
+    """A bus, and its answers that have not arrived yet."""
+
+    def __init__(self, bus: Answering) -> None:
         self.bus = bus
         self._coming: list[Reply] = []
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing
 from pathlib import Path
 
@@ -10,18 +10,22 @@ import pytest
 from hardware_bodies import BRISK, PATIENT, STAND, Twin
 
 from robot_agent.body import Body
+from robot_agent.hardware.hardware_body import HardwareBody
 from robot_agent.hardware.imu.stream import gx5_imu
 from robot_agent.hardware.opening import open_body
 from robot_agent.hardware.power_monitor import PowerMonitor
+from robot_agent.hardware.serial_line import ByteLine
 from robot_agent.hardware.wiring import Wiring
 from sim_agent.body import SimulatedBody
 from sim_agent.model import sitting_joints
 from sim_agent.sensor_lines import EmulatedGx5, TwinSensors
 from sim_agent.servo_bus.body_joints import BodyJoints
 from sim_agent.servo_bus.joints import FirstOrderJoints
+from sim_agent.servo_bus.trace import ReplayedBus, ReplayedLine, TracedBus, TracedLine, load_trace, save_trace
 from sim_agent.servo_bus.twin import KIND, TwinServos, TwinTerminals
 from sim_agent.servo_bus.twin_wiring import twin_wiring
-from sim_agent.servo_bus.wire import VirtualLineClock
+from sim_agent.servo_bus.virtual_port import VirtualPort
+from sim_agent.servo_bus.wire import Answering, VirtualLineClock
 from sim_agent.worlds import make_world
 from weaver_shared.config.hardware import ServoSettings
 from weaver_shared.robots import RobotDescription, load_robot
@@ -52,7 +56,7 @@ def make_twin(robot: RobotDescription, tmp_path: Path) -> Iterator[Callable[...,
         yield make
 
 
-@pytest.fixture(params=["simulated", "in process", "terminal"])
+@pytest.fixture(params=["simulated", "in process", "terminal", "replayed"])
 def body(
     request: pytest.FixtureRequest, robot: RobotDescription, tmp_path: Path, make_twin: Callable[..., Twin]
 ) -> Iterator[Body]:
@@ -64,6 +68,13 @@ def body(
         with closing(SimulatedBody(robot, make_world("flat", 1), 1, held_at=STAND)) as simulated:
             yield simulated
         return
+    if request.param == "replayed":
+        # The test itself is what is recorded, and then hears the same bytes again.
+        traces = _recorded(request.function, robot, tmp_path)
+        with closing(_on_lines(robot, tmp_path, *traces)) as replayed:
+            replayed.prepare()
+            yield replayed
+        return
     # Simple joints: a simulator could not keep real time on a busy computer.
     wiring = Wiring(twin_wiring(robot, tmp_path, settings=PATIENT), robot)
     shafts = wiring.shaft(sitting_joints(robot))
@@ -71,3 +82,32 @@ def body(
     with TwinTerminals(servos, paced=False), closing(open_body(wiring, kind=KIND)) as real:
         real.prepare()
         yield real
+
+
+def _recorded(
+    test: Callable[[Body], None], robot: RobotDescription, folder: Path
+) -> tuple[dict[str, ReplayedBus], ReplayedLine]:
+    """What went over the lines of a body on a stand while a test had it, by way of a file."""
+    wiring = Wiring(twin_wiring(robot, folder, settings=BRISK), robot)
+    with closing(SimulatedBody(robot, make_world("flat", 1), 1, held_at=STAND)) as simulated:
+        sensors = TwinSensors(EmulatedGx5())
+        servos = TwinServos(wiring, lambda servos: BodyJoints(servos, simulated, wiring, heard=sensors.hear))
+        buses = {name: TracedBus(bus) for name, bus in servos.buses.items()}
+        line = TracedLine(sensors.imu_line)
+        with closing(_on_lines(robot, folder, buses, line)) as body:
+            body.prepare()
+            test(body)
+    replayed = {}
+    for name, bus in buses.items():
+        save_trace(folder / name, bus.trace)
+        replayed[name] = ReplayedBus(load_trace(folder / name))
+    return replayed, ReplayedLine(line.trace)
+
+
+def _on_lines(
+    robot: RobotDescription, folder: Path, buses: Mapping[str, Answering], imu_line: ByteLine
+) -> HardwareBody:
+    wiring = Wiring(twin_wiring(robot, folder, settings=BRISK), robot)
+    clock = VirtualLineClock(1_000_000_000)
+    ports = {name: VirtualPort(bus, clock, name) for name, bus in buses.items()}
+    return HardwareBody(wiring, ports, clock, kind=KIND, imu=gx5_imu(imu_line, 200))

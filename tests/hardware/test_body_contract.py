@@ -1,4 +1,5 @@
-"""What control may rely on with any body: simulated, on emulated buses in process, on emulated buses on terminals."""
+"""What control may rely on with any body: simulated, on emulated buses in process and on terminals, and on
+a recording of what went over a robot's lines."""
 
 from __future__ import annotations
 
