@@ -7,6 +7,7 @@ import { expectRelease } from "../console/controlLoss";
 import { holder, holdsControl, selectedRobot } from "../console/control";
 import { useConsole } from "../console/store";
 import { AskButton } from "./AskButton";
+import { RealRobotDialog } from "./RealRobotDialog";
 import { TakeOverDialog } from "./TakeOverDialog";
 
 export function LeaseControl() {
@@ -17,6 +18,7 @@ export function LeaseControl() {
   const connected = useConsole((state) => state.connection === "open");
   const [asking, setAsking] = useState(false);
   const [waiting, setWaiting] = useState(false);
+  const [confirming, setConfirming] = useState(false);
 
   const ask = async (name: "take_control" | "release_control", reason?: string) => {
     setAsking(false);
@@ -24,6 +26,12 @@ export function LeaseControl() {
     if (name === "release_control") expectRelease();
     await command(name, reason === undefined ? {} : { reason });
     setWaiting(false);
+  };
+
+  const take = () => {
+    setConfirming(false);
+    if (owner === "") void ask("take_control");
+    else setAsking(true);
   };
 
   return (
@@ -53,12 +61,18 @@ export function LeaseControl() {
           loading={waiting}
           disabled={!connected || robot === undefined || !robot.alive || watching !== null}
           title={watching ?? undefined}
-          onClick={() => (owner === "" ? void ask("take_control") : setAsking(true))}
+          onClick={() => (robot?.kind === "REAL" ? setConfirming(true) : take())}
         >
           Take control
         </Button>
       )}
       <AskButton owner={owner} held={held} />
+      <RealRobotDialog
+        opened={confirming}
+        robot={robot?.id ?? ""}
+        onCancel={() => setConfirming(false)}
+        onConfirm={take}
+      />
       <TakeOverDialog
         opened={asking}
         owner={owner}
