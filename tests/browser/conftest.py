@@ -7,6 +7,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -59,6 +60,12 @@ class Stage:
 
 @pytest.fixture(scope="session")
 def stage(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Stage]:
+    with running_stage(tmp_path_factory) as shared:
+        yield shared
+
+
+@contextmanager
+def running_stage(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Stage]:
     bus = MemoryBus()
     hub = Hub(Link(bus))
     robot = FullRobot(bus, ROBOT_ID, tmp_path_factory.mktemp("recordings"))
@@ -70,11 +77,20 @@ def stage(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Stage]:
     while not server.started:
         time.sleep(0.005)
     robot.start()
-    yield Stage(robot=robot, hub=hub, address=f"http://127.0.0.1:{listener.getsockname()[1]}/")
-    robot.stop()
-    server.should_exit = True
-    serving.join()
-    listener.close()
+    try:
+        yield Stage(robot=robot, hub=hub, address=f"http://127.0.0.1:{listener.getsockname()[1]}/")
+    finally:
+        robot.stop()
+        server.should_exit = True
+        serving.join()
+        listener.close()
+
+
+@pytest.fixture
+def own_stage(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Stage]:
+    """A console for one test alone, which remembers nothing of robots that others had."""
+    with running_stage(tmp_path_factory) as own:
+        yield own
 
 
 @pytest.fixture
