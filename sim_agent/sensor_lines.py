@@ -12,7 +12,15 @@ import numpy as np
 from robot_agent.hardware.imu import gx3, mip
 from robot_agent.hardware.imu.record import STANDARD_GRAVITY
 from robot_agent.hardware.imu.stream import Z_DOWN
-from robot_agent.hardware.power_monitor import HEARTBEAT, J_PER_MWH, PowerRecord, encode
+from robot_agent.hardware.power_monitor import (
+    CLOSE_RELAY,
+    HEARTBEAT,
+    J_PER_MWH,
+    OPEN_RELAY,
+    RELAY_CLOSED,
+    PowerRecord,
+    encode,
+)
 from robot_agent.hardware.serial_line import ByteLine
 from weaver_shared.messages import ImuBatch, Proprioception
 
@@ -123,9 +131,15 @@ class EmulatedPowerMonitor:
         self._energy = 0.0  # J
         self._last_ns: int | None = None
         self.heartbeats = 0
+        self.relay_closed = True
+        self.on_relay: Callable[[bool], None] = lambda closed: None
+        """Called with whether it is closed now."""
 
     def obey(self, command: bytes) -> bytes:
         self.heartbeats += command == HEARTBEAT
+        if command in (OPEN_RELAY, CLOSE_RELAY):
+            self.relay_closed = command == CLOSE_RELAY
+            self.on_relay(self.relay_closed)
         return b""
 
     def line(self, now_ns: int, voltage: float, current: float) -> bytes:
@@ -140,7 +154,7 @@ class EmulatedPowerMonitor:
                 round(voltage * 1e3),
                 round(current * 1e3),
                 round(self._energy / J_PER_MWH),
-                0x01,
+                RELAY_CLOSED if self.relay_closed else 0,
             )
         )
 

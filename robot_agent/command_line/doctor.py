@@ -15,11 +15,14 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
+from robot_agent.hardware.cameras.opening import open_cameras
+from robot_agent.hardware.cameras.source import StereoSource
 from robot_agent.hardware.doctor import Examination, Finding, Verdict
 from robot_agent.hardware.opening import open_imu, open_port, open_power
 from robot_agent.hardware.servos.port import MonotonicLineClock, SerialPort
 from robot_agent.hardware.wiring import Wiring, load_wiring
-from weaver_shared.errors import ResourceError
+from weaver_shared.config.hardware import GenicamCameras, ReplayedCameras, VideoCameras
+from weaver_shared.errors import ResourceError, WeaverError
 from weaver_shared.robots import load_robot
 
 Line = TypeVar("Line")
@@ -61,8 +64,9 @@ def _opened(wiring: Wiring, options: argparse.Namespace) -> Iterator[Examination
                 stack.callback(port.closePort)
         imu = _tried(partial(open_imu, rate=wiring.robot.imu.rate), config.imu) if config.imu else None
         power = _tried(open_power, config.power) if config.power else None
-        for source in (imu, power):
-            if source is not None and not isinstance(source, ResourceError):
+        cameras = _seeing(config.cameras) if config.cameras else None
+        for source in (imu, power, cameras):
+            if source is not None and not isinstance(source, WeaverError):
                 stack.callback(source.close)
         yield Examination(
             wiring=wiring,
@@ -73,6 +77,8 @@ def _opened(wiring: Wiring, options: argparse.Namespace) -> Iterator[Examination
             cycles=options.cycles,
             seconds=options.seconds,
             hung_up=options.hung_up,
+            lying=options.lying,
+            cameras=cameras,
         )
 
 
@@ -80,6 +86,13 @@ def _tried(opening: Callable[[Line], Device], line: Line) -> Device | ResourceEr
     try:
         return opening(line)
     except ResourceError as error:
+        return error
+
+
+def _seeing(config: GenicamCameras | VideoCameras | ReplayedCameras) -> StereoSource | WeaverError:
+    try:
+        return open_cameras(config, MonotonicLineClock())
+    except WeaverError as error:
         return error
 
 
@@ -98,9 +111,10 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("wiring", type=Path, help="the robot's wiring file, .toml (docs/hardware.md)")
     parser.add_argument("--cycles", type=_count, default=1000, help="readings of all servos")
     parser.add_argument(
-        "--seconds", type=_seconds, default=5.0, help="s to listen to the IMU, and to the power monitor"
+        "--seconds", type=_seconds, default=5.0, help="s to listen to IMU and power monitor, and to watch the cameras"
     )
     parser.add_argument("--hung-up", action="store_true", help="the robot hangs with its feet free: test the watchdogs")
+    parser.add_argument("--lying", action="store_true", help="the robot lies on its belly: test the motors' relay")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     return parser
 

@@ -29,6 +29,7 @@ RELAY_CLOSED, SENSOR_MISSING = 0x01, 0x02
 HEARTBEAT = b"HB\n"
 """Where the monitor guards the motors' relay, half a second without it opens the relay."""
 HEARTBEAT_NS = 100_000_000
+OPEN_RELAY, CLOSE_RELAY = b"RELAY 0\n", b"RELAY 1\n"
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +88,8 @@ class PowerMonitor:
         self._parser = PowerParser()
         self._clock = ClockMap()
         self._beat_ns = 0
+        self.relay_closed: bool | None = None
+        """As the monitor last said."""
         self._last_ms = 0
         self._laps = 0
 
@@ -103,6 +106,7 @@ class PowerMonitor:
         for record in self._parser.feed(self._line.receive(now_ns)):
             device_ns = self._unwrapped_ms(record.device_ms) * 1_000_000
             self._clock.observe(device_ns, now_ns)
+            self.relay_closed = bool(record.flags & RELAY_CLOSED)
             if not record.flags & SENSOR_MISSING:
                 newest = PowerReading(
                     stamp_ns=self._clock.at(device_ns),
@@ -111,6 +115,10 @@ class PowerMonitor:
                     energy=record.milliwatt_hours * J_PER_MWH,
                 )
         return newest
+
+    def switch_relay(self, *, closed: bool) -> None:
+        """The motors' supply; whatever holds the robot up goes with it."""
+        self._line.send(CLOSE_RELAY if closed else OPEN_RELAY)
 
     def close(self) -> None:
         self._line.close()

@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hardware_bodies import PATIENT
 
 from robot_agent.command_line import doctor
+from robot_agent.hardware.cameras.source import CameraHealth
 from robot_agent.hardware.doctor import Examination, Finding, Verdict
 from robot_agent.hardware.doctor.adapter import judge_adapter
 from robot_agent.hardware.imu.stream import gx3_imu, gx5_imu
@@ -26,6 +28,7 @@ from sim_agent.servo_bus.wire import VirtualLineClock
 from sim_agent.still_lines import StillImuLine, StillPowerLine
 from weaver_shared.config.hardware import ImuLine, ServoSettings
 from weaver_shared.errors import ConfigurationError, ResourceError
+from weaver_shared.messages import StereoFrame
 from weaver_shared.robots import load_robot
 
 GOOD, ATTENTION, WRONG, NOT_TESTED = Verdict.GOOD, Verdict.ATTENTION, Verdict.WRONG, Verdict.NOT_TESTED
@@ -280,3 +283,68 @@ def test_ports_that_are_not_there_are_a_plain_answer(tmp_path: Path, capsys: pyt
 def test_a_wiring_that_is_none_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match="No such file"):
         doctor.main([str(tmp_path / "nothing.toml")])
+
+
+def relayed(patient: Patient, *, wired: bool = True) -> PowerMonitor:
+    """A power monitor whose relay feeds the servos, or lies beside their supply."""
+    line = StillPowerLine()
+
+    def switch(closed: bool) -> None:
+        for servo in patient.twin.servos:
+            servo.alive = closed or not wired
+
+    line.monitor.on_relay = switch
+    return PowerMonitor(line)
+
+
+def test_the_relay_is_opened_only_under_a_robot_that_lies_and_is_closed_again(patient: Patient) -> None:
+    power = relayed(patient)
+    assert patient.examined(power=power)["motor relay"].verdict is NOT_TESTED
+    finding = patient.examined(power=power, lying=True)["motor relay"]
+    assert finding.verdict is GOOD
+    assert finding.figures == {"before": 30, "silent": 30, "back": 30}
+    assert power.relay_closed
+
+
+def test_a_relay_that_feeds_nobody_is_found(patient: Patient) -> None:
+    finding = patient.examined(power=relayed(patient, wired=False), lying=True)["motor relay"]
+    assert finding.verdict is WRONG
+    assert "keep their power" in finding.fix
+
+
+class Pairs:
+    """A source of pairs at such steps (ms) on the patient's clock."""
+
+    def __init__(self, clock: VirtualLineClock, steps: list[float]) -> None:
+        self._clock, self._steps, self._given = clock, steps, 0
+
+    def read(self, timeout: float) -> StereoFrame | None:
+        if self._given >= len(self._steps):
+            self._clock.forward(seconds=timeout)
+            return None
+        self._clock.forward(seconds=self._steps[self._given] * 1e-3)
+        self._given += 1
+        picture = np.zeros((2, 2), dtype=np.uint8)
+        return StereoFrame(stamp_ns=self._clock.now_ns(), sequence=self._given, left=picture, right=picture)
+
+    def health(self) -> CameraHealth:
+        return CameraHealth(pairs=self._given, lost=0, trouble="")
+
+    def close(self) -> None: ...
+
+
+@pytest.mark.parametrize(
+    ("steps", "verdict", "words"),
+    [
+        ([50.0] * 40, GOOD, ""),
+        ([50.0, 60.0, 40.0, 50.0] * 10, WRONG, "uneven"),
+        ([], WRONG, "trigger's wire"),
+    ],
+)
+def test_the_cameras_stamps_tell_of_their_trigger(
+    patient: Patient, steps: list[float], verdict: Verdict, words: str
+) -> None:
+    finding = patient.examined(cameras=Pairs(patient.clock, steps))["cameras"]
+    assert finding.verdict is verdict
+    assert words in finding.fix
+    assert sum(bar["cycles"] for bar in finding.figures.get("histogram", [])) == max(min(len(steps), 20) - 1, 0)

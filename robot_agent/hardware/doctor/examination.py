@@ -6,12 +6,17 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from robot_agent.hardware.cameras.source import StereoSource
 from robot_agent.hardware.doctor.adapter import USB_SERIAL, judge_adapter
 from robot_agent.hardware.doctor.bus_scan import ask_everybody, judge_bus
+from robot_agent.hardware.doctor.camera_check import CHECK as CAMERAS
+from robot_agent.hardware.doctor.camera_check import judge_cameras
 from robot_agent.hardware.doctor.cycle_check import judge_cycles
 from robot_agent.hardware.doctor.finding import Finding, Verdict, not_tested
 from robot_agent.hardware.doctor.power_check import CHECK as POWER
 from robot_agent.hardware.doctor.power_check import judge_power
+from robot_agent.hardware.doctor.relay_check import CHECK as RELAY
+from robot_agent.hardware.doctor.relay_check import judge_relay
 from robot_agent.hardware.doctor.servo_check import (
     ServoState,
     judge_readiness,
@@ -28,8 +33,9 @@ from robot_agent.hardware.power_monitor import PowerMonitor
 from robot_agent.hardware.servos.port import LineClock, ServoPort
 from robot_agent.hardware.sources import InertialSource
 from robot_agent.hardware.wiring import Wiring
+from weaver_shared.config.hardware import GenicamCameras
 from weaver_shared.config.safety import SafetyLimits
-from weaver_shared.errors import ResourceError
+from weaver_shared.errors import ResourceError, WeaverError
 
 Opened = ServoPort | ResourceError
 """A port, or why there is none."""
@@ -47,6 +53,8 @@ class Examination:
     cycles: int = 1000
     seconds: float = 5.0  # to listen to the IMU, and to the power monitor
     hung_up: bool = False
+    lying: bool = False  # on its belly: the motors' relay may be opened
+    cameras: StereoSource | WeaverError | None = None
     adapters: Path = USB_SERIAL
 
     def run(self) -> Iterator[Finding]:
@@ -70,10 +78,8 @@ class Examination:
         yield self._watchdog(open_ports, state)
         yield self._imu()
         yield self._power()
-        yield not_tested(
-            "motor relay", "no command opens it yet", "switch it by hand: the servos must lose their power"
-        )
-        yield not_tested("cameras", "no real cameras can be opened yet")
+        yield self._relay(open_ports, state)
+        yield self._cameras()
 
     def _watchdog(self, ports: Mapping[str, ServoPort], state: ServoState) -> Finding:
         if not state.ready.all():
@@ -85,6 +91,24 @@ class Examination:
         body = HardwareBody(self.wiring, ports, self.clock)
         body.prepare()
         return judge_watchdog(body, self.clock, self.wiring.config.servos.watchdog)
+
+    def _relay(self, ports: Mapping[str, ServoPort], state: ServoState) -> Finding:
+        if not isinstance(self.power, PowerMonitor):
+            return not_tested(RELAY, "the power monitor switches it, and there is none")
+        if state.holding:
+            return not_tested(RELAY, "servos hold with torque", "let the robot down and switch torque off")
+        if not self.lying:
+            return not_tested(RELAY, "the servos lose their power for it", "let the robot lie down, then add --lying")
+        return judge_relay(self.power, ports, self.clock, self.wiring.config.servos.answer_margin)
+
+    def _cameras(self) -> Finding:
+        if self.cameras is None:
+            return not_tested(CAMERAS, "not connected: the wiring file names none")
+        if isinstance(self.cameras, WeaverError):
+            return Finding(check=CAMERAS, verdict=Verdict.WRONG, found=str(self.cameras), fix="check power and cables")
+        config = self.wiring.config.cameras
+        rate = config.rate if isinstance(config, GenicamCameras) else None
+        return judge_cameras(self.cameras, rate, self.clock, self.seconds)
 
     def _imu(self) -> Finding:
         if self.imu is None:
