@@ -46,9 +46,17 @@ def describe(record: RobotRecord, now_ns: int) -> dict[str, object]:
 
 
 def _parameters(config: AdaptationConfig) -> dict[str, dict[str, object]]:
-    """Bounds and units of what an operator may override."""
+    """Bounds and units of what an operator may override, and the polynomials by which the ground sets it."""
     bounds = {name: getattr(config, name) for name in _UNITS}
-    return {name: {"lower": b.lower, "upper": b.upper, "unit": _UNITS[name]} for name, b in bounds.items()}
+    constant, of_step, of_roughness = config.height_polynomial
+    curves: dict[str, dict[str, object]] = {
+        "virtual_stiffness": {"roughness": config.stiffness_polynomial, "step_height": ()},
+        "stride_frequency": {"roughness": config.frequency_polynomial, "step_height": ()},
+        "stride_height": {"roughness": (constant, of_roughness), "step_height": (of_step,)},
+    }
+    return {
+        name: {"lower": b.lower, "upper": b.upper, "unit": _UNITS[name], **curves[name]} for name, b in bounds.items()
+    }
 
 
 def _motion(robot: RobotDescription) -> dict[str, object]:

@@ -4,6 +4,7 @@ import { Reading } from "../components/Reading";
 import { fixed } from "../components/format";
 import { useHindrance } from "../console/control";
 import { useLatest } from "../console/useLatest";
+import { CurvePlot } from "./CurvePlot";
 import { ParameterPlot } from "./ParameterPlot";
 import type { Parameter } from "./parameters";
 import { useOverride } from "./useOverride";
@@ -36,6 +37,7 @@ export function ParameterControl({ parameter, seconds }: { parameter: Parameter;
           <Reading label="Current" source={KEY} value={fixed(applied, digits)} unit={unit} />
           <Reading label="Desired" source={KEY} value={fixed(report?.desired[name], digits)} unit={unit} />
         </div>
+        <CurvePlot parameter={parameter} />
         <ParameterPlot parameter={parameter} />
       </div>
       <div className="slider">

@@ -51,7 +51,7 @@ export interface RobotEntry {
   presets: string[];
   joint_limits: [number, number][];
   /** What an operator may set of the adapted parameters; absent names are not adjustable. */
-  parameters?: Record<string, { lower: number; upper: number; unit: string }>;
+  parameters?: Record<string, { lower: number; upper: number; unit: string; roughness?: number[]; step_height?: number[] }>;
   motion?: MotionLimits | null;
   conflict: string;
 }

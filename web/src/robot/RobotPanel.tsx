@@ -11,6 +11,7 @@ import { useConsole } from "../console/store";
 import { useLatest } from "../console/useLatest";
 import { ConfirmStandDialog } from "./ConfirmStandDialog";
 import { GaitDiagram } from "./GaitDiagram";
+import { JointTable } from "./JointTable";
 import { StabilityBar } from "./StabilityBar";
 
 const STATE = "tele/state";
@@ -45,6 +46,7 @@ export function RobotPanel() {
         <Reading label="Speed" source={STATE} value={fixed(speed, 2)} unit="m/s" />
         <Reading label="Turn rate" source={STATE} value={degrees(state?.velocity_in_body[2], 0)} unit="°/s" />
       </div>
+      <JointTable />
       <ConfirmStandDialog
         opened={confirming}
         robot={robot?.id ?? ""}

@@ -4,6 +4,7 @@ import { Reading } from "../components/Reading";
 import { UNKNOWN, fixed, milliseconds, percent } from "../components/format";
 import { useFreshness, useKeys, useLatest } from "../console/useLatest";
 import type { LoopTiming } from "../protocol/messages";
+import { Alerts } from "./Alerts";
 import { type HealthKey, OdometryReadings } from "./OdometryReadings";
 
 const POWER = "tele/power";
@@ -12,6 +13,7 @@ export function StatusPanel() {
   const keys = useKeys("tele/health/") as HealthKey[];
   return (
     <Panel title="Health" className="health">
+      <Alerts />
       <OdometryReadings keys={keys} />
       {keys.length === 0 ? <p className="empty">No process has reported yet.</p> : <LoopTable keys={keys} />}
       <PowerDetails />

@@ -2,22 +2,23 @@
 import { useState } from "react";
 import { Panel } from "../components/Panel";
 import { Switch } from "../components/Switch";
-import { fixed } from "../components/format";
+import { fixed, milliseconds } from "../components/format";
 import { holdsControl, selectedRobot } from "../console/control";
 import { useConsole } from "../console/store";
 import { useLatest } from "../console/useLatest";
 import { DrivePad } from "./DrivePad";
 import { HoldButton } from "./HoldButton";
+import { allowedShare } from "./latency";
 import { useTeleop } from "./useTeleop";
-
-const SPEEDS = [0.25, 0.5, 0.75, 1];
 
 export function TeleopPanel() {
   const hindrance = useDrivingHindrance();
   const [keyboard, setKeyboard] = useState(false);
   const [limit, setLimit] = useState(0.5);
   const enabled = hindrance === null;
-  const teleop = useTeleop(enabled, keyboard, limit);
+  const roundTrip = useConsole((state) => worstRoundTrip(state.roundTrip, state.commandRoundTrip));
+  const share = allowedShare(roundTrip);
+  const teleop = useTeleop(enabled, keyboard, limit * share);
   const driving = teleop.frame !== null;
   return (
     <Panel
@@ -32,16 +33,24 @@ export function TeleopPanel() {
           <Switch label="Keyboard driving" checked={keyboard} disabled={!enabled} onChange={setKeyboard} />
           <label className="speed">
             <span>Speed limit</span>
-            <select value={limit} onChange={(event) => setLimit(Number(event.currentTarget.value))}>
-              {SPEEDS.map((speed) => (
-                <option key={speed} value={speed}>
-                  {fixed(100 * speed, 0)} %
-                </option>
-              ))}
-            </select>
+            <input
+              type="range"
+              aria-label="Speed limit"
+              aria-valuetext={`${fixed(100 * limit, 0)} %`}
+              min={0.05}
+              max={1}
+              step={0.05}
+              value={limit}
+              onChange={(event) => setLimit(event.currentTarget.valueAsNumber)}
+            />
+            <span className="number">{fixed(100 * limit, 0)} %</span>
           </label>
         </div>
       </div>
+      <p className="hint">
+        Round trip {milliseconds(roundTrip)} ms
+        {share < 1 && <strong>: speed reduced to {fixed(100 * share, 0)} %</strong>}
+      </p>
       <p className="hint">
         {hindrance !== null
           ? `Not possible now: ${hindrance}.`
@@ -51,6 +60,11 @@ export function TeleopPanel() {
       </p>
     </Panel>
   );
+}
+
+/** Page to console, or to the robot where that took longer; null while unknown, s. */
+function worstRoundTrip(toConsole: number | null, toRobot: number | null): number | null {
+  return toConsole === null ? null : Math.max(toConsole, toRobot ?? 0);
 }
 
 function useDrivingHindrance(): string | null {

@@ -1,0 +1,93 @@
+"""Driving by hand, the adaptation, joints and alerts, by the names that everybody uses."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from weaver_shared import topics
+from weaver_shared.messages import TeleopFrame
+
+pytestmark = pytest.mark.browser
+
+GAMEPAD = """
+window.pad = { connected: true, id: "a gamepad", axes: [0, -1, 0, 0], buttons: Array(16).fill({ pressed: false }) };
+navigator.getGamepads = () => [window.pad];
+"""
+
+
+@pytest.fixture
+def driven(stage: Any) -> list[TeleopFrame]:
+    frames: list[TeleopFrame] = []
+    stage.robot.bus.subscribe(stage.robot.robot_id, topics.TELEOP, lambda _id, _key, frame: frames.append(frame))
+    return frames
+
+
+def _wait(visitor: Any, holds: Callable[[], bool]) -> None:
+    for _ in range(100):
+        if holds():
+            return
+        visitor.page.wait_for_timeout(50)
+    raise TimeoutError("it did not happen")
+
+
+def test_driving_by_keys_and_gamepad_ends_when_the_hand_leaves(
+    visit: Callable[..., Any], driven: list[TeleopFrame]
+) -> None:
+    anna = visit()
+    anna.stand()
+    anna.page.get_by_role("slider", name="Speed limit").fill("0.5")
+    anna.page.get_by_role("switch", name="Keyboard driving").click(force=True)
+    anna.page.keyboard.down("Shift")
+    anna.page.keyboard.down("w")
+    _wait(anna, lambda: any(frame.dead_man and 0.05 < frame.forward <= 0.5 for frame in driven))
+    anna.page.keyboard.up("w")
+    anna.page.keyboard.up("Shift")
+    _wait(anna, lambda: not driven[-1].dead_man)
+    assert (driven[-1].forward, driven[-1].turn) == (0.0, 0.0)
+    driven.clear()
+    anna.page.evaluate(GAMEPAD + "window.pad.buttons[5] = { pressed: true };")
+    _wait(anna, lambda: any(frame.dead_man and frame.forward > 0.05 for frame in driven))
+    anna.page.evaluate("window.pad.connected = false; window.dispatchEvent(new Event('gamepaddisconnected'))")
+    _wait(anna, lambda: not driven[-1].dead_man)
+    anna.page.get_by_text(re.compile("^Round trip [0-9]+ ms")).wait_for()
+
+
+def test_the_adaptation_shows_where_on_its_polynomials_the_robot_is(visit: Callable[..., Any], stage: Any) -> None:
+    anna = visit()
+    anna.stand()
+    group = anna.page.get_by_role("group", name="Adaptation")
+    group.get_by_role("img", name="Virtual stiffness over roughness: now at 0.20, give or take 0.05").wait_for()
+    group.get_by_role("img", name="Stride height over step height: now at 0.10, give or take 0.05").wait_for()
+    group.get_by_role("img", name="Stride frequency over the last minute").wait_for()
+    group.get_by_text("vision").wait_for()
+    group.get_by_role("combobox", name="Override lasts").select_option("60")
+    group.get_by_role("switch", name="Override Stride height").click(force=True)
+    _wait(anna, lambda: "stride_height" in stage.robot.overrides)
+    group.get_by_role("slider", name="Stride height").fill("0.1")
+    _wait(anna, lambda: abs(stage.robot.overrides.get("stride_height", 0.0) - 0.1) < 1e-6)
+    asked = [command for command in stage.robot.commands if command.name == "stride_height"]
+    assert {command.seconds for command in asked} == {60.0}
+
+
+def test_joints_alerts_and_pictures_are_there(
+    visit: Callable[..., Any], stage: Any, picture: Callable[[Any, str], None]
+) -> None:
+    anna = visit()
+    anna.page.get_by_text("Joints", exact=True).click()
+    rows = anna.page.locator(".joints tbody tr")
+    rows.first.wait_for()
+    assert rows.count() == 30
+    assert re.search(r"-?[0-9.]+.*-69 to 69.*-?1\.0", rows.first.inner_text(), re.DOTALL)
+    assert anna.page.get_by_role("list", name="Alerts").count() == 0
+    stage.robot.temperature, stage.robot.real_time_factor = 71.0, 0.4
+    alerts = anna.page.get_by_role("list", name="Alerts")
+    alerts.get_by_text("a servo is at 71 °C").wait_for()
+    alerts.get_by_text("Let it rest").wait_for()
+    alerts.get_by_text("simulated time runs slower").wait_for()
+    anna.page.get_by_role("img", name="Picture of camera left").wait_for()
+    anna.page.get_by_role("img", name=re.compile("^Gait diagram, in swing")).wait_for()
+    picture(anna, "panels")
