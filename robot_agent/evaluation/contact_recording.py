@@ -44,6 +44,7 @@ class ContactRecording:
             felt = FootContacts(
                 stamp_ns=contacts.stamp_ns[n : n + 1],
                 foot_in_body=contacts.foot_in_body[n : n + 1],
+                sole_in_body=contacts.sole_in_body[n : n + 1],
                 touching=contacts.touching[n : n + 1],
             )
             yield StereoFrame(stamp_ns=stamp, sequence=n, left=NO_PICTURE, right=NO_PICTURE), part, felt
@@ -110,7 +111,7 @@ def _contacts(rows: list[dict[str, str]]) -> FootContacts:
             foot = int(row["foot_index"])
             feet[n, foot] = [float(row[key]) for key in CONTACT_COLUMNS[4:]]
             touching[n, foot] = True
-    return FootContacts(stamp_ns=stamps, foot_in_body=feet, touching=touching)
+    return FootContacts(stamp_ns=stamps, foot_in_body=feet, sole_in_body=feet, touching=touching)
 
 
 def _numbers(rows: list[dict[str, str]], keys: tuple[str, ...]) -> NDArray[np.float64]:

@@ -18,6 +18,9 @@ from robot_agent.locomotion.stability import static_margin
 from robot_agent.locomotion.stepper import step
 from robot_agent.locomotion.walk_state import Array, Record
 
+LARGEST_LEAN = 0.4
+"""Tangent of the last link's lean, beyond which a foot that is far away is not leant after."""
+
 
 @kernel
 def sense_tick(memory: Array, upright: bool) -> None:
@@ -144,14 +147,13 @@ def place_feet(walk: Record) -> None:
 
 @kernel
 def reach_feet(walk: Record) -> None:
-    """Joint angles for the wanted feet, last links along gravity as far as the legs can without turning too fast."""
+    """Joint angles for the wanted feet; last links along gravity, or nearly, if no joint is too fast then."""
     model, joint = walk.model, walk.joint
     n, direction = model.joints, np.empty(3)
     has_choice = n > 3 and model.closed_form == ITERATIVE
     largest_step = model.speed_limit[:n] * model.dt
-    for k in range(3):
-        direction[k] = -walk.senses.up[k]
     for leg in range(model.legs):
+        _aim_last_link(walk, leg, direction)
         joint.distance_left[leg] = solve_leg(
             model.dh[:n],
             model.limits[:n],
@@ -176,6 +178,22 @@ def reach_feet(walk: Record) -> None:
                 joint.previous[leg, :n],
                 joint.wanted[leg, :n],
             )
+
+
+@kernel
+def _aim_last_link(walk: Record, leg: int, direction: Array) -> None:
+    """Fill `direction` (3,): along gravity, leaning after a foot that is away from the middle of its stance.
+
+    So the last joint takes its part in the stride, which the knee alone would be too slow for. All feet lean alike, so
+    that what they roll by on the ground moves the whole body, and none of them slips.
+    """
+    up, foot, stance = walk.senses.up, walk.joint.foot[leg], walk.model.stance[leg]
+    away_x, away_y = foot[0] - stance[0], foot[1] - stance[1]
+    lean = walk.settings.last_link_lean
+    lean = min(lean, LARGEST_LEAN / max(np.sqrt(away_x * away_x + away_y * away_y), 1e-9))
+    direction[0] = lean * away_x - up[0]
+    direction[1] = lean * away_y - up[1]
+    direction[2] = -up[2]
 
 
 @kernel

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from robot_agent.locomotion.walk_tick import WalkInput, WalkOutput
 from robot_agent.locomotion.walker import Walker
-from weaver_shared.config.locomotion import LocomotionConfig
 from weaver_shared.messages import GaitParameters
 from weaver_shared.robots import RobotDescription
 
@@ -38,7 +37,7 @@ def kinematic_gait(
     dt: float,
 ) -> Iterator[TrajectoryTick]:
     """Ticks 0..ticks of a robot that stands, is given `velocity` (vx, vy, turn) once before tick 6, and walks."""
-    config = LocomotionConfig(feel_ground=False, compensate_servos=False)
+    config = robot.locomotion.model_copy(update={"feel_ground": False, "compensate_servos": False})
     walker = Walker(robot, config, dt)
     joints = walker.begin_standing()
     yield TrajectoryTick(tick=0, joint_position=joints, joint_rate=np.zeros_like(joints), walk=None)

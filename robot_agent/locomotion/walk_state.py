@@ -134,6 +134,7 @@ GAIT = np.dtype(
         ("duty", F),
         ("offset", F, (LEGS,)),
         ("leg_phase", F, (LEGS,)),  # 0 at lift-off
+        ("gliding", F),  # 0..1, how fast offsets and duty go over to those of a newly chosen gait
         ("walking", N),
         ("halted", N),  # no foot lifts any more
         ("skipped", N),  # a foot has missed its lift-off, so the walk has to end before it goes on

@@ -29,7 +29,10 @@ class ContactStream:
             return
         part = _cut(contacts, good)
         part = FootContacts(
-            stamp_ns=part.stamp_ns, foot_in_body=part.foot_in_body, touching=self._settled(part.stamp_ns, part.touching)
+            stamp_ns=part.stamp_ns,
+            foot_in_body=part.foot_in_body,
+            sole_in_body=part.sole_in_body,
+            touching=self._settled(part.stamp_ns, part.touching),
         )
         self._waiting = part if self._waiting is None else FootContacts.join([self._waiting, part])
 
@@ -60,5 +63,6 @@ def _cut(contacts: FootContacts, rows: Mask) -> FootContacts:
     return FootContacts(
         stamp_ns=contacts.stamp_ns[rows],
         foot_in_body=contacts.foot_in_body[rows],
+        sole_in_body=contacts.sole_in_body[rows],
         touching=contacts.touching[rows],
     )

@@ -1,7 +1,9 @@
 """How far the IMU went over its standing feet: what the joints say, turned by the gyro (Bloesch et al., RSS 2012).
 
-A foot that stands is a fixed point of the world, so the body's way is the foot's, backwards. Feet that slip do not
-agree with the others and are left out; while fewer than two agree, the way goes on as before and is known less well.
+A foot that stands has a point that is fixed in the world, so the body's way is that point's, backwards. It is the far
+end of its sole: a round foot whose link leans over rolls, and its centre goes on by radius times angle. Feet that slip
+do not agree with the others and are left out; while fewer than two agree, the way goes on as before and is known less
+well.
 """
 
 from __future__ import annotations
@@ -51,7 +53,7 @@ def way_of(
     covered = float(since[-1] - since[0])
     if covered <= 0.0 or abs(since[0]) > LONGEST_OVERHANG or abs(duration - since[-1]) > LONGEST_OVERHANG:
         return None
-    feet: Array = contacts.foot_in_body @ imu_from_body.rotation.T + imu_from_body.position
+    feet: Array = contacts.sole_in_body @ imu_from_body.rotation.T + imu_from_body.position
     turns = _turns_at(samples, gyro_bias, np.asarray(np.maximum(since, 0.0), dtype=np.float64))
     displacement, guessed, slips = _displacement(
         feet, contacts.touching, turns, since, config.slip_way, config.slip_speed

@@ -53,5 +53,6 @@ def _standing(stamps: NDArray[np.int64]) -> FootContacts:
     return FootContacts(
         stamp_ns=stamps,
         foot_in_body=np.tile(FOOTHOLDS, (count, 1, 1)),
+        sole_in_body=np.tile(FOOTHOLDS, (count, 1, 1)),
         touching=np.ones((count, len(FOOTHOLDS)), dtype=np.bool_),
     )

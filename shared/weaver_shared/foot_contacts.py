@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from weaver_shared.leg_batch import LegBatch
 from weaver_shared.robots import RobotDescription
-from weaver_shared.robots.forward_kinematics import feet_in_body
+from weaver_shared.robots.forward_kinematics import joint_frames_in_body
 from weaver_shared.transforms import Pose
 
 Array = NDArray[np.float64]
@@ -22,6 +22,7 @@ class FootContacts:
 
     stamp_ns: NDArray[np.int64]  # (n,)
     foot_in_body: Array  # (n, legs, 3) m
+    sole_in_body: Array  # (n, legs, 3) m, the far ends of the last links: they stay where they are while feet roll
     touching: Mask  # (n, legs)
 
     @staticmethod
@@ -29,9 +30,13 @@ class FootContacts:
         """What the robot's joints and contact switches say; None without a reading."""
         if not len(legs.stamp_ns):
             return None
+        frames = np.array([joint_frames_in_body(robot, joints)[:, -2:, :3, 3] for joints in legs.joint_position])
+        feet = frames[:, :, 1]
+        last_link = feet - frames[:, :, 0]
         return FootContacts(
             stamp_ns=legs.stamp_ns,
-            foot_in_body=np.array([feet_in_body(robot, joints) for joints in legs.joint_position]),
+            foot_in_body=feet,
+            sole_in_body=feet + robot.foot_radius / np.linalg.norm(last_link, axis=2, keepdims=True) * last_link,
             touching=legs.foot_contact,
         )
 
@@ -49,5 +54,6 @@ class FootContacts:
         return FootContacts(
             stamp_ns=np.concatenate([part.stamp_ns for part in parts]),
             foot_in_body=np.concatenate([part.foot_in_body for part in parts]),
+            sole_in_body=np.concatenate([part.sole_in_body for part in parts]),
             touching=np.concatenate([part.touching for part in parts]),
         )

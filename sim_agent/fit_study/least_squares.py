@@ -1,4 +1,8 @@
-"""Polynomials of roughness and step height through the best gaits, of the degree that predicts best (eqs. 9-11)."""
+"""Polynomials of roughness and step height through the best gaits, of the degree that predicts best (eqs. 9-11).
+
+As in the paper's Fig. 5, stiffness and frequency never rise with rougher ground, and the stride height never falls:
+what a few grounds seem to say against it is no more than their noise.
+"""
 
 from __future__ import annotations
 
@@ -69,10 +73,9 @@ def _fit(name: str, design: Array, values: Array, spreads: Array) -> Fitted:
     }
     if not errors:
         errors = {(0,): float("nan")}
-    terms = min(errors, key=lambda one: errors[one])
-    solution = _solve(design[:, terms], values, spreads)
-    coefficients = np.zeros(design.shape[1])
-    coefficients[list(terms)] = solution
+    solved = {terms: _filled(design, terms, values, spreads) for terms in errors}
+    terms = min(errors, key=lambda one: (not _goes_one_way(name, solved[one]), errors[one]))
+    coefficients = solved[terms]
     residual = values[:-1] - (design @ coefficients)[:-1]
     return Fitted(
         name=name,
@@ -80,6 +83,22 @@ def _fit(name: str, design: Array, values: Array, spreads: Array) -> Fitted:
         terms=terms,
         residual=float(np.sqrt(np.mean(residual**2))) if len(residual) else float("nan"),
         predicted=errors[terms],
+    )
+
+
+def _filled(design: Array, terms: tuple[int, ...], values: Array, spreads: Array) -> Array:
+    """All coefficients of the polynomial, those but `terms` zero."""
+    coefficients = np.zeros(design.shape[1])
+    coefficients[list(terms)] = _solve(design[:, terms], values, spreads)
+    return coefficients
+
+
+def _goes_one_way(name: str, coefficients: Array) -> bool:
+    """Whether the polynomial never rises with rougher ground; of the stride height, never falls."""
+    if name == "stride_height":
+        return bool((coefficients[1:] >= 0.0).all())
+    return bool(
+        (np.diff(np.vander(np.linspace(0.0, 1.0, 101), coefficients.size, increasing=True) @ coefficients) <= 0.0).all()
     )
 
 

@@ -30,8 +30,9 @@ NOTES = (
     "transport times (1 + variance of roll and pitch over (3 degrees) squared); a set that fails with any seed is out. "
     "The best gait is the mean of all sets, weighed by how near their score is to the lowest. The set that is merely "
     "fastest, the paper's measure, is given beside it.",
-    "The degree is the one that predicts best a ground left out of the fit. At r = h = 1, the answer for unknown "
-    "ground, the polynomials are held to the safe gait in use.",
+    "The degree is the one that predicts best a ground left out of the fit, of those whose polynomial has the paper's "
+    "form: stiffness and frequency never rise with rougher ground, and the stride height never falls. At r = h = 1, the answer for "
+    "unknown ground, the polynomials are held to the safe gait in use.",
 )
 
 

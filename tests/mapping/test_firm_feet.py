@@ -22,6 +22,7 @@ def readings(first, contacts):
     return FootContacts(
         stamp_ns=(first + np.arange(n)) * TICK_NS,
         foot_in_body=np.tile(feet_in_body(ROBOT, JOINTS), (n, 1, 1)),
+        sole_in_body=np.tile(feet_in_body(ROBOT, JOINTS), (n, 1, 1)),
         touching=contacts,
     )
 

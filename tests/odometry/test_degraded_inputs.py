@@ -271,7 +271,9 @@ def test_feet_carry_on_in_long_darkness_and_pictures_take_over_again(
     for n, (frame, batch) in enumerate(_spoiled(recording, 40, 80, lambda f: replace(f, left=BLACK, right=BLACK))):
         stamps = np.arange(n * FRAME_NS, (n + 1) * FRAME_NS + 1, 10_000_000, dtype=np.int64)[int(n > 0) :]
         feet = np.array([Walk().body(float(stamp) * 1e-9).inverse().transform(footholds) for stamp in stamps])
-        contacts = FootContacts(stamp_ns=stamps, foot_in_body=feet, touching=np.ones((len(stamps), 3), dtype=np.bool_))
+        contacts = FootContacts(
+            stamp_ns=stamps, foot_in_body=feet, sole_in_body=feet, touching=np.ones((len(stamps), 3), dtype=np.bool_)
+        )
         estimates.append(odometry.step(frame, batch, contacts))
     assert all(e.quality is DEGRADED and "on inertia and feet" in e.reason for e in estimates[41:80])
     way_in_the_dark = float(np.linalg.norm(estimates[79].position_in_world - estimates[39].position_in_world))

@@ -31,7 +31,10 @@ def _contacts(footholds: np.ndarray = FOOTHOLDS) -> FootContacts:
     body = [(_imu(int(stamp)) @ IMU_FROM_BODY).inverse() for stamp in stamps]
     feet = np.array([pose.transform(footholds) for pose in body])
     return FootContacts(
-        stamp_ns=stamps, foot_in_body=feet, touching=np.ones((len(stamps), len(footholds)), dtype=np.bool_)
+        stamp_ns=stamps,
+        foot_in_body=feet,
+        sole_in_body=feet.copy(),
+        touching=np.ones((len(stamps), len(footholds)), dtype=np.bool_),
     )
 
 
@@ -49,11 +52,30 @@ def test_feet_that_stand_give_the_way_and_the_turn() -> None:
 
 def test_a_foot_that_slips_is_left_out() -> None:
     contacts = _contacts()
-    contacts.foot_in_body[5:, 2] = _contacts(FOOTHOLDS + np.array([0.03, 0.0, 0.0])).foot_in_body[5:, 2]
+    contacts.sole_in_body[5:, 2] = _contacts(FOOTHOLDS + np.array([0.03, 0.0, 0.0])).sole_in_body[5:, 2]
     way = _way(contacts)
     assert way is not None
     assert way.slipping
     assert way.displacement == pytest.approx(_imu(TICKS * TICK_NS).position, abs=1e-9)
+
+
+def test_feet_that_roll_carry_the_body_by_radius_times_angle() -> None:
+    """Links lean from 0.25 rad ahead to 0.25 rad behind while the body passes over feet of 16 mm."""
+    radius, contacts = 0.016, _contacts()
+    angles = np.linspace(0.25, -0.25, TICKS + 1)
+    for n, angle in enumerate(angles):
+        world_from_body = _imu(n * TICK_NS) @ IMU_FROM_BODY
+        rolled = np.array([radius * (angles[0] - angle), 0.0, 0.0])
+        link = np.array([np.sin(angle), 0.0, -np.cos(angle)])
+        body_from_world = world_from_body.inverse()
+        contacts.foot_in_body[n] = body_from_world.transform(FOOTHOLDS + rolled)
+        contacts.sole_in_body[n] = body_from_world.transform(FOOTHOLDS + rolled + radius * link)
+    way = _way(contacts)
+    assert way is not None
+    assert way.displacement == pytest.approx(_imu(TICKS * TICK_NS).position, abs=1e-4)
+    centres = _way(replace(contacts, sole_in_body=contacts.foot_in_body))
+    assert centres is not None
+    assert abs(centres.displacement - way.displacement).max() > 0.9 * radius * 0.5
 
 
 def test_a_moment_without_two_feet_makes_the_way_less_sure_and_a_long_one_unknown() -> None:
@@ -72,9 +94,9 @@ def test_a_moment_without_two_feet_makes_the_way_less_sure_and_a_long_one_unknow
 def test_two_ways_joined_are_the_whole_one() -> None:
     contacts, middle = _contacts(), TICKS // 2
     first = replace(
-        contacts, stamp_ns=contacts.stamp_ns[: middle + 1], foot_in_body=contacts.foot_in_body[: middle + 1]
+        contacts, stamp_ns=contacts.stamp_ns[: middle + 1], sole_in_body=contacts.sole_in_body[: middle + 1]
     )
-    second = replace(contacts, stamp_ns=contacts.stamp_ns[middle:], foot_in_body=contacts.foot_in_body[middle:])
+    second = replace(contacts, stamp_ns=contacts.stamp_ns[middle:], sole_in_body=contacts.sole_in_body[middle:])
     halves = [
         way_of(part, SAMPLES[:TICKS], end, np.zeros(3), IMU_FROM_BODY, FEET)
         for part, end in ((first, middle * TICK_NS), (second, TICKS * TICK_NS))

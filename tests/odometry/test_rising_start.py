@@ -35,7 +35,9 @@ class Rise(Walk):
 def _felt(begin_ns: int, end_ns: int) -> FootContacts:
     stamps = np.arange(begin_ns + TICK_NS, end_ns + 1, TICK_NS, dtype=np.int64)
     feet = np.array([Rise().body(stamp * 1e-9).inverse().transform(FOOTHOLDS) for stamp in stamps])
-    return FootContacts(stamp_ns=stamps, foot_in_body=feet, touching=np.ones(feet.shape[:2], dtype=np.bool_))
+    return FootContacts(
+        stamp_ns=stamps, foot_in_body=feet, sole_in_body=feet, touching=np.ones(feet.shape[:2], dtype=np.bool_)
+    )
 
 
 def _estimates(robot: RobotDescription, calibration: StereoCalibration, *, felt: bool) -> list[OdometryEstimate]:

@@ -13,7 +13,7 @@ class PathFollowerConfig(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     acceptance_radius: Positive = 0.5  # R
-    forward_speed: Positive = 0.30  # V_x,max; the gait's own limits come on top
+    forward_speed: Positive = 0.35  # V_x,max (Weaver's fastest); the gait's own limits come on top
     side_speed: Positive = 0.10  # V_y,max
     turn_gain: Positive = 1.2  # K_rot, 1/s
     turn_rate: Positive = 0.4

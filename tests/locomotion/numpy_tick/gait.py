@@ -6,7 +6,7 @@ from numpy_tick.orders import approached
 from numpy_tick.servo_pace import forget_demand, pace_for
 from numpy_tick.stride import stride_of
 from robot_agent.locomotion import reasons
-from robot_agent.locomotion.gait_clock import GLIDE
+from robot_agent.locomotion.gait_clock import GLIDE, GLIDE_BEGINS
 from robot_agent.locomotion.ground_search import DOWN
 from robot_agent.locomotion.stepper import BRAKING_STRIDE, LEANT, PACE_TIME, SLOWNESS_TOLD, STOP_SLEW
 from robot_agent.locomotion.trip import CLEAR
@@ -36,7 +36,7 @@ def begin(walk):
         if cost < costs[best] - 1e-12:
             best = candidate
     start = gait.phase if walk.posing.fade > 0.0 else candidates[best]
-    gait.phase, gait.duty, gait.offset = start % 1.0, orders.duty, orders.offset
+    gait.phase, gait.duty, gait.offset, gait.gliding = start % 1.0, orders.duty, orders.offset, 0.0
     gait.leg_phase = (gait.phase + gait.offset) % 1.0
     at_lift_off = (gait.leg_phase < 1e-9) | (gait.leg_phase > 1.0 - 1e-9)
     walk.feet.lifted = (gait.leg_phase < 1.0 - gait.duty) & ~at_lift_off
@@ -97,9 +97,12 @@ def follow_pace(walk, target):
 
 
 def run_clock(walk, strides):
-    gait, orders, step = walk.gait, walk.orders, GLIDE * strides
-    gait.phase = (gait.phase + strides) % 1.0
+    gait, orders = walk.gait, walk.orders
     gap = (orders.offset - gait.offset + 0.5) % 1.0 - 0.5
+    changes = max(np.abs(gap).max(), abs(orders.duty - gait.duty)) > 1e-9
+    gait.gliding = min(gait.gliding + strides / GLIDE_BEGINS, 1.0) if changes else 0.0
+    step = gait.gliding * GLIDE * strides
+    gait.phase = (gait.phase + strides) % 1.0
     gait.offset = (gait.offset + np.clip(gap, -step, step)) % 1.0
     gait.leg_phase = (gait.phase + gait.offset) % 1.0
     gait.duty += np.clip(orders.duty - gait.duty, -step, step)

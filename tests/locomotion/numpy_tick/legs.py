@@ -18,8 +18,16 @@ def reach_feet(walk):
     model, joint = walk.model, walk.joint
     for leg in range(model.legs):
         joint.wanted[leg], joint.distance_left[leg] = solve_leg(
-            model, model.hips[leg], model.hip_axes[leg], joint.foot[leg], -walk.senses.up, joint.previous[leg]
+            model, model.hips[leg], model.hip_axes[leg], joint.foot[leg], last_link(walk, leg), joint.previous[leg]
         )
+
+
+def last_link(walk, leg):
+    """Along gravity, leaning after the foot, but not by more than a tangent of 0.4."""
+    away = walk.joint.foot[leg, :2] - walk.model.stance[leg, :2]
+    lean = walk.settings.last_link_lean * away
+    size = np.linalg.norm(lean)
+    return np.append(lean * min(1.0, 0.4 / max(size, 1e-12)), 0.0) - walk.senses.up
 
 
 def follow_angles(walk):
