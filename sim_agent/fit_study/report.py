@@ -31,8 +31,8 @@ NOTES = (
     "The best gait is the mean of all sets, weighed by how near their score is to the lowest. The set that is merely "
     "fastest, the paper's measure, is given beside it.",
     "The degree is the one that predicts best a ground left out of the fit, of those whose polynomial has the paper's "
-    "form: stiffness and frequency never rise with rougher ground, and the stride height never falls. At r = h = 1, the answer for "
-    "unknown ground, the polynomials are held to the safe gait in use.",
+    "form: stiffness and frequency never rise with rougher ground, and the stride height never falls. At r = h = 1, "
+    "the answer for unknown ground, the polynomials are held to the safe gait in use.",
 )
 
 
