@@ -27,6 +27,8 @@ TERMS: dict[str, tuple[tuple[int, ...], ...]] = {
 """Subsets of each polynomial's coefficients, of which the data choose one."""
 LEAST_SPREAD = 0.08
 """Of a parameter's range: no ground's best gait is known better than that."""
+HELD = 0.02
+"""Times that, for the safe gait: so near do the polynomials come to it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,7 +57,7 @@ def fit(bests: list[BestGait], adaptation: AdaptationConfig) -> list[Fitted]:
         bounds = getattr(adaptation, name)
         least = LEAST_SPREAD * (bounds.upper - bounds.lower)
         values = np.array([best.parameters[k] for best in passed] + [safe[name]])
-        spreads = np.hypot([best.spread[k] for best in passed] + [0.0], least)
+        spreads = np.append(np.hypot([best.spread[k] for best in passed], least), HELD * least)
         result.append(_fit(name, _design(name, r, h), values, spreads))
     return result
 
