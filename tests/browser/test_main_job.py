@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from visitors import CHROMIUM, WITHOUT_WEBGL
 
 from weaver_console.scene.ground import UNKNOWN_MM, Ground
 from weaver_console.scene.page_scene import CAMERA_FROM_ROBOT, LOOK_FROM_ROBOT
@@ -20,22 +20,6 @@ pytest.importorskip("pybullet")
 playwright = pytest.importorskip("playwright.sync_api")
 expect = playwright.expect
 
-CHROMIUM = Path("/usr/bin/chromium")
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
-WITHOUT_WEBGL = """
-const original = HTMLCanvasElement.prototype.getContext;
-HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
-  return kind.startsWith("webgl") ? null : original.call(this, kind, ...rest);
-};
-"""
 ROBOT_ID = "browser-1"
 FIELD_OF_VIEW = np.deg2rad(75.0)  # viser's, vertical
 GROWN_AREA = 0.3  # m2; the cameras see a strip about 1 m wide, and the robot goes on for most of a metre
@@ -50,11 +34,8 @@ def product(start_product: Callable[..., Any]) -> Any:
 
 
 @pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with playwright.sync_playwright() as machine:
-        browser = machine.chromium.launch(executable_path=str(CHROMIUM), args=FLAGS)
-        yield browser
-        browser.close()
+def browser(chromium: Callable[..., Any]) -> Any:
+    return chromium()
 
 
 @pytest.fixture

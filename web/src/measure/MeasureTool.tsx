@@ -1,11 +1,13 @@
 /** Switches measuring on and tells what was measured. */
 import { Button } from "@mantine/core";
 import { terrain } from "../console/live";
+import { useConsole } from "../console/store";
 import { described, heightAt } from "./distance";
 import { startMeasuring, useMeasure } from "./measureStore";
 
 export function MeasureTool() {
   const { active, places } = useMeasure();
+  useConsole(() => terrain.version); // heights come with the terrain, which may be seen later than the places are chosen
   return (
     <span className="measure">
       <Button
