@@ -3,6 +3,10 @@
 from collections.abc import Callable
 from typing import Any
 
+import pytest
+
+pytestmark = pytest.mark.browser
+
 
 def test_control_is_asked_for_and_handed_over(
     visit: Callable[..., Any], picture: Callable[..., None], stage: Any

@@ -256,15 +256,15 @@ def test_when_all_lose_power_it_is_stopped_until_released(stand: Stand) -> None:
 def test_a_jammed_joint_is_eased_and_the_robot_holds(stand: Stand) -> None:
     joint = "CR_femur"
     servo = stand.devices.servos[list(stand.devices.joints).index(joint)]
-    cap = servo.table[r.GOAL_CURRENT]
     stand.ordered(CommandName.SIT)
     stand.until(lambda tick: tick.permission.mode == "READY")
     inject(stand.devices, "jammed", joint)
     stand.ordered(CommandName.STAND)
-    pulling = 0  # ticks in a row
+    pulling, cap = 0, 0.0  # ticks in a row; the most it was allowed, of which the servo may still keep less before
 
     def stuck(tick: WalkTick) -> bool:
-        nonlocal pulling
+        nonlocal pulling, cap
+        cap = max(cap, servo.table[r.GOAL_CURRENT])
         behind = abs(servo.table[r.GOAL_POSITION] - servo.table[r.PRESENT_POSITION]) * r.RAD_PER_COUNT
         hard = abs(servo.table[r.PRESENT_CURRENT]) >= 0.8 * servo.table[r.GOAL_CURRENT]
         pulling = pulling + 1 if behind > 0.26 and hard else 0

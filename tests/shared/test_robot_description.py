@@ -94,7 +94,7 @@ def test_the_cameras_look_forward_and_down(weaver: RobotDescription) -> None:
             '[[custom_gaits]]\nname = "own"\nduty = 0.6\noffsets = { AR = 0.0 }\n[body]',
             "custom_gaits.own.offsets: has AR; give one for each of the legs AR, BR, CR, CL, BL, AL",
         ),
-        ("[body]", "[locomotion]\nlargest_strid = 0.2\n[body]", "locomotion.largest_strid: Extra inputs"),
+        ("[locomotion]", "[locomotion]\nlargest_strid = 0.2", "locomotion.largest_strid: Extra inputs"),
     ],
 )
 def test_a_mistake_is_named(tmp_path: Path, old: str, new: str, sentence: str) -> None:
