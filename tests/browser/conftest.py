@@ -114,6 +114,7 @@ def visit(chromium: Callable[..., Any], stage: Stage) -> Iterator[Callable[..., 
         visitors.append(visitor)
         visitor.page.goto(stage.address)
         visitor.see_state("HOLD|STAND|SIT|ESTOP|WALK")
+        visitor.wait_for_layout()
         return visitor
 
     yield visit

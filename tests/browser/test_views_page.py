@@ -58,6 +58,7 @@ def test_a_distance_is_measured_and_the_map_saved_as_a_picture(
     anna.press("View options")
     anna.press("Measure")
     anna.page.get_by_text("choose the first place").wait_for()
+    anna.wait_for_layout()
     box = map_of(anna).bounding_box()
     anna.page.mouse.click(*within(box, 0.4, 0.5))
     anna.page.get_by_text("choose the second place").wait_for()

@@ -21,6 +21,16 @@ ROBOT_ID = "weaver-1"
 PATIENT = 20_000.0  # ms
 DESK, PHONE = (1440, 900), (390, 844)
 
+LAID_OUT = """
+() => {
+  const box = JSON.stringify(document.querySelector("[role=application][aria-label=Map]")?.getBoundingClientRect());
+  const before = window.boxOfMap ?? { box: undefined, frames: 0 };
+  window.boxOfMap = { box, frames: box !== undefined && box === before.box ? before.frames + 1 : 0 };
+  return window.boxOfMap.frames >= 15 && document.querySelector(".legend") !== null;
+}
+"""
+"""Whether the ground has come and the map has kept its place for some frames: a hand waits for that too."""
+
 WITHOUT_WEBGL = """
 const original = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
@@ -41,6 +51,9 @@ class Visitor:
         self.page.set_default_timeout(PATIENT)
         self.page.on("request", lambda request: self.requested.append(request.url))
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+
+    def wait_for_layout(self) -> None:
+        self.page.wait_for_function(LAID_OUT)
 
     def button(self, name: str | re.Pattern[str]) -> Any:
         return self.page.get_by_role("button", name=name, exact=isinstance(name, str))
