@@ -54,7 +54,7 @@ NOTHING_ASKED = Survey(refusal="", length=0.0, unknown=0.0)
 class WaySurvey:
     def __init__(self, robot: RobotDescription, ground: GroundMemory) -> None:
         self._ground = ground
-        self._half_width = float(np.abs(robot.stance_in_body[:, 1]).max()) + robot.foot_radius
+        self._half_width = robot.half_width
         self._highest_step = RouteConfig().highest_step
         self._steepest = SafetyLimits().tilt_hold  # rad; there it would hold, and not go on
 

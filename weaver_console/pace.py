@@ -15,10 +15,8 @@ MOST_ON_THE_WAY = 8
 LEAST_ROOM, MOST_ROOM = 8 * 1024, 256 * 1024
 """Bytes of tiles and pictures on the way: one tile at least, or they would never come."""
 
-PROMPT, LATE = (
-    0.25,
-    0.5,
-)  # s from sending to taking: below the first there may be more on the way, above the second less
+PROMPT, LATE = 0.25, 0.5
+"""s from sending to taking: below the first there may be more on the way, above the second less."""
 
 
 class Pace:

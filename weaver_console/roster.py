@@ -9,7 +9,6 @@ import msgspec
 from weaver_console.link import Link
 from weaver_console.plain import to_json
 from weaver_console.robot_record import RobotRecord
-from weaver_console.scene.shapes import half_width
 from weaver_shared.config.adaptation import AdaptationConfig
 from weaver_shared.config.command import CommandLimits
 from weaver_shared.robots import RobotDescription, load_robot
@@ -69,7 +68,7 @@ def _motion(robot: RobotDescription) -> dict[str, object]:
         "cruise_seconds": limits.cruise_seconds,
         "postures": _postures(robot.name) if robot.posture else [],
         "packs": robot.packed_joints is not None,
-        "half_width": half_width(robot),
+        "half_width": robot.half_width,
     }
 
 

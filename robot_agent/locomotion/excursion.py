@@ -8,7 +8,7 @@ import numpy as np
 
 from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.feet import FOOTHOLD_SPEED, REACH, STAND, SWING
-from robot_agent.locomotion.gait_clock import GLIDE
+from robot_agent.locomotion.gait_clock import GLIDE, offset_gap
 from robot_agent.locomotion.walk_state import Array, Record
 from robot_agent.locomotion.walkspace import radius_towards
 
@@ -39,7 +39,7 @@ def ways_left(walk: Record, ways: Array) -> None:
 @kernel
 def strides_until(walk: Record, leg: int, phase_left: float) -> float:
     """Strides in which a leg's phase goes on by `phase_left`, while its offset glides to that of the ordered gait."""
-    gap = (walk.orders.offset[leg] - walk.gait.offset[leg] + 0.5) % 1.0 - 0.5
+    gap = offset_gap(walk, leg)
     strides: float = max(phase_left / (1.0 + GLIDE), phase_left - gap)
     if gap < 0.0:
         strides = min(phase_left / (1.0 - GLIDE), phase_left - gap)

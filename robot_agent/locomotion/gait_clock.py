@@ -30,18 +30,18 @@ def advance_clock(walk: Record, strides: float) -> None:
     gait, orders = walk.gait, walk.orders
     changes = abs(orders.duty - gait.duty)
     for leg in range(walk.model.legs):
-        changes = max(changes, abs(_gap(walk, leg)))
+        changes = max(changes, abs(offset_gap(walk, leg)))
     gait.gliding = min(gait.gliding + strides / GLIDE_BEGINS, 1.0) if changes > 1e-9 else 0.0
     step = gait.gliding * GLIDE * strides
     gait.phase = (gait.phase + strides) % 1.0
     for leg in range(walk.model.legs):
-        gait.offset[leg] = (gait.offset[leg] + min(max(_gap(walk, leg), -step), step)) % 1.0
+        gait.offset[leg] = (gait.offset[leg] + min(max(offset_gap(walk, leg), -step), step)) % 1.0
         gait.leg_phase[leg] = (gait.phase + gait.offset[leg]) % 1.0
     gait.duty += min(max(orders.duty - gait.duty, -step), step)
 
 
 @kernel
-def _gap(walk: Record, leg: int) -> float:
+def offset_gap(walk: Record, leg: int) -> float:
     """Strides, -0.5 to 0.5, that a leg's offset is behind that of the ordered gait."""
     gap: float = (walk.orders.offset[leg] - walk.gait.offset[leg] + 0.5) % 1.0 - 0.5
     return gap

@@ -24,20 +24,11 @@ from weaver_shared.bus import ZenohBus, free_port
 from weaver_shared.errors import ResourceError
 from weaver_shared.messages import CommandName, Health, LoopTiming, Waypoint
 from weaver_shared.operator import Operator
+from weaver_shared.quiet_chromium import FLAGS
 
 ROBOT_ID = "bench"
 OPERATOR = "bench"
-CHROMIUM = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--window-size=1440,900",
-]
+CHROMIUM = ["--headless", *FLAGS, "--window-size=1440,900"]
 
 
 def main(arguments: list[str]) -> int:

@@ -99,9 +99,7 @@ def _goes_one_way(name: str, coefficients: Array) -> bool:
     """Whether the polynomial never rises with rougher ground; of the stride height, never falls."""
     if name == "stride_height":
         return bool((coefficients[1:] >= 0.0).all())
-    return bool(
-        (np.diff(np.vander(np.linspace(0.0, 1.0, 101), coefficients.size, increasing=True) @ coefficients) <= 0.0).all()
-    )
+    return bool((np.diff(np.polynomial.Polynomial(coefficients)(np.linspace(0.0, 1.0, 101))) <= 0.0).all())
 
 
 def _predicted(design: Array, values: Array, spreads: Array) -> float:

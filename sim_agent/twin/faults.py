@@ -17,7 +17,7 @@ OVERLOADED = 32
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Devices:
-    """What faults happen to. `plug` puts a bus's adapter in (True) or pulls it out, `freeze` stops the physics."""
+    """What faults happen to. `plug` puts a bus's adapter in (True) or pulls it out."""
 
     joints: Sequence[str]
     servos: Sequence[EmulatedServo]

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 from full_robot import FullRobot
-from visitors import CHROMIUM, DESK, FLAGS, ROBOT_ID, WITHOUT_WEBGL, Visitor
+from visitors import CHROMIUM, DESK, ROBOT_ID, WITHOUT_WEBGL, Visitor
 
 from weaver_console import built_page
 from weaver_console.access import Access
@@ -23,6 +23,7 @@ from weaver_console.hub import Hub
 from weaver_console.link import Link
 from weaver_console.web_server import web_server
 from weaver_shared.bus import MemoryBus
+from weaver_shared.quiet_chromium import FLAGS
 
 PICTURES = "WEAVER_PICTURES"
 """Environment variable with the folder for the guide's pictures; without it they are kept beside the test's files."""

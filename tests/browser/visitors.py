@@ -8,15 +8,6 @@ from pathlib import Path
 from typing import Any
 
 CHROMIUM = Path("/usr/bin/chromium")
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
 ROBOT_ID = "weaver-1"
 PATIENT = 20_000.0  # ms
 DESK, PHONE = (1440, 900), (390, 844)

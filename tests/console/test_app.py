@@ -6,7 +6,7 @@ import http.client
 from typing import Any
 
 import pytest
-from conftest import Console, Page
+from running_console import Console, Page
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from wire_robot import WireRobot
 

@@ -11,8 +11,8 @@ from itertools import pairwise
 
 import msgspec
 import pytest
-from conftest import Console, Field, Page
 from guarding_desk import GuardedRobot
+from running_console import Console, Field, Page
 
 from weaver_console.command_desk import CommandDesk
 from weaver_console.page_messages import CommandRequest
@@ -103,24 +103,6 @@ def test_a_clock_that_is_set_costs_no_command(field: Field, hours: int):
     numbers = [command.sequence for command, _ in guarded.commands]
     for one_console in (numbers[:4], numbers[4:]):
         assert all(later > earlier for earlier, later in pairwise(one_console))
-
-
-def test_a_stick_that_is_not_heard_of_again_stops_the_robot(console: Console, robot: GuardedRobot):
-    """As when a gamepad is unplugged, a tab is put to sleep or a page is closed while it drives."""
-    with console.page() as socket:
-        page = _greeted(Page(socket), robot)
-        page.command(CommandName.TAKE_CONTROL)
-        page.say(type="teleop", forward=1.0, left=0.0, turn=0.0, dead_man=True)
-        page.say(type="ping", t=1.0)
-        page.hear("pong")
-        velocity = robot.desk.orders().teleop_velocity
-        assert velocity is not None
-        assert velocity[0] > 0.0
-        robot.clock.forward(seconds=0.31)
-        ramped = robot.desk.orders().teleop_velocity
-        assert ramped is None or not ramped.any()
-        robot.clock.forward(seconds=0.75)
-        assert robot.desk.orders().operator_silence > 1.0  # for which it holds
 
 
 def test_a_stick_beyond_its_limits_or_not_a_number_is_refused(console: Console, robot: GuardedRobot):

@@ -4,7 +4,7 @@ import sqlite3
 from pathlib import Path
 
 import pytest
-from conftest import Console
+from running_console import Console
 
 from weaver_console import event_archive
 from weaver_console.database import Database

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from conftest import Field
+from running_console import Field
 
 from weaver_console.feed import Feed
 from weaver_console.roster import Roster

@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 import schemathesis
-from conftest import PASSWORD, Console, Page
 from guarding_desk import GuardedRobot
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from running_console import PASSWORD, Console, Page
 
 from weaver_console.access import Access, Role
 from weaver_console.app import create_app

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conftest import Console, Field, Page
+from running_console import Console, Field, Page
 from wire_robot import WireRobot
 
 from weaver_console.handover import ANSWER_WITHIN, Handover

@@ -1,6 +1,6 @@
 """Robots come, go and return at the console by themselves."""
 
-from conftest import Field
+from running_console import Field
 
 from weaver_console.roster import Roster, describe
 from weaver_shared import topics

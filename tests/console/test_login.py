@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import PASSWORD, Console, Page
+from running_console import PASSWORD, Console, Page
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from wire_robot import WireRobot
 

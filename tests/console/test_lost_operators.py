@@ -9,8 +9,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import Console, Page
 from guarding_desk import GuardedRobot
+from running_console import Console, Page
 from websockets.sync.client import ClientConnection
 
 from weaver_shared.bus import MemoryBus

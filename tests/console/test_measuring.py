@@ -4,7 +4,7 @@ import asyncio
 import threading
 import time
 
-from conftest import Console
+from running_console import Console
 from wire_robot import WireRobot
 
 from weaver_console.measuring.made_robot import MadeRobot

@@ -1,6 +1,6 @@
 """A page is told no more than it can take, so that what it shows is new."""
 
-from conftest import Console, Page
+from running_console import Console, Page
 from wire_robot import WireRobot
 
 from weaver_console.pace import LATE, LEAST_ROOM, MOST_ON_THE_WAY, MOST_ROOM, Pace

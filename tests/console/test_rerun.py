@@ -8,7 +8,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from conftest import Console
+from running_console import Console
 from wire_robot import WireRobot
 
 from robot_agent.command_line.export import main

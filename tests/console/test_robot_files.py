@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from conftest import Console, Page
+from running_console import Console, Page
 from wire_robot import WireRobot
 
 from weaver_console import robot_files

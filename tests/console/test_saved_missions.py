@@ -3,9 +3,9 @@
 from pathlib import Path
 
 import pytest
-from conftest import Console
 from hypothesis import given
 from hypothesis import strategies as st
+from running_console import Console
 
 from weaver_console.database import VERSION, Database
 from weaver_console.missions import LONGEST_NAME, MissionStore

@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import Console, Field, Page
 from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
+from running_console import Console, Field, Page
 from websockets.exceptions import InvalidStatus
 from wire_robot import STANDING, ground_height
 

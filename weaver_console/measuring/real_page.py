@@ -12,12 +12,9 @@ from typing import Any
 from weaver_console.measuring.percentiles import percentiles_ms
 from weaver_console.measuring.processes import MeasuredProcess, console_process
 from weaver_shared.bus import free_port
+from weaver_shared.quiet_chromium import FLAGS
 
 ROBOT = "made-1"
-FLAGS = [
-    "--no-sandbox", "--disable-gpu", "--disable-3d-apis", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync",
-]  # fmt: skip
 
 WATCH = """
 window.measured = { answers: [], drawn: [] };
@@ -78,7 +75,7 @@ def measure_real_page(clicks: int) -> dict[str, Any]:
 def _drive(chromium: str, address: str, clicks: int) -> dict[str, Any]:
     playwright = importlib.import_module("playwright.sync_api")  # only who measures a real page needs it
     with playwright.sync_playwright() as machine:
-        browser = machine.chromium.launch(executable_path=chromium, args=FLAGS)
+        browser = machine.chromium.launch(executable_path=chromium, args=[*FLAGS, "--disable-3d-apis"])
         page = browser.new_page(viewport={"width": 1440, "height": 900})
         page.add_init_script(WATCH)
         page.goto(address)

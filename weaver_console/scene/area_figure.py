@@ -31,6 +31,5 @@ class AreaFigure:
         for area in areas:
             corners = [(corner.x, corner.y) for corner in area]
             border = draped(ground, [*corners, corners[0]])
-            posts = draped(ground, corners)[:1] if len(corners) == 1 else border
-            fences += [chained(posts + np.array([0.0, 0.0, rail])) for rail in RAILS]
+            fences += [chained(border + np.array([0.0, 0.0, rail])) for rail in RAILS]
         self._lines.show(np.concatenate(fences))

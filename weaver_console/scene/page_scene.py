@@ -27,7 +27,6 @@ from weaver_console.scene.measure_figure import MeasureFigure
 from weaver_console.scene.mission_figure import TOP, Course, MissionFigure
 from weaver_console.scene.motion_figure import MotionFigure
 from weaver_console.scene.robot_figure import RobotFigure
-from weaver_console.scene.shapes import half_width
 from weaver_console.scene.terrain_figure import MeshStore, TerrainFigure
 from weaver_shared.bus import free_port
 from weaver_shared.config.navigation import PathFollowerConfig
@@ -224,7 +223,7 @@ class PageScene:
                 "/world/mission",
                 passing_radius=FOLLOWER.acceptance_radius,
                 goal_radius=FOLLOWER.goal_radius,
-                half_width=half_width(robot) if robot is not None else 0.0,
+                half_width=robot.half_width if robot is not None else 0.0,
                 on_drag=self._dragged,
             ),
             contours=ContourFigure(scene, "/world/contours"),

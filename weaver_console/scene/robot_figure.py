@@ -55,7 +55,7 @@ class RobotFigure:
         )  # fmt: skip
         self._contact: NDArray[np.bool_] | None = None
         self._stall = np.tile([robot.servos[joint.servo].stall_torque for joint in robot.joints], robot.leg_count)
-        self._shares: Array | None = None
+        self._joint_colours = np.array(_JOINT_COLOUR, dtype=np.uint8)
 
     def _add_body(self, scene: Any, name: str) -> None:
         robot = self._robot
@@ -74,21 +74,13 @@ class RobotFigure:
     def torque(self, torque: Array | None) -> None:
         """Colour every joint and the link it moves by its share of the servo's stall torque; None as usual."""
         if torque is None or torque.shape != self._stall.shape:
-            shares = None
+            joints, links = np.array(_JOINT_COLOUR, dtype=np.uint8), np.array(_LINK_COLOUR, dtype=np.uint8)
         else:
-            shares = np.round(np.abs(torque) / self._stall, 2)
-        if shares is None and self._shares is None:
-            return
-        if shares is not None and self._shares is not None and np.array_equal(shares, self._shares):
-            return
-        self._shares = shares
-        if shares is None:
-            self._links.batched_colors = np.array(_LINK_COLOUR, dtype=np.uint8)
-            self._joints.batched_colors = np.array(_JOINT_COLOUR, dtype=np.uint8)
-            return
-        colours = TORQUE.colours(shares)
-        self._joints.batched_colors = colours
-        self._links.batched_colors = colours.reshape(self._robot.leg_count, -1, 3)[:, self._first].reshape(-1, 3)
+            joints = TORQUE.colours(np.abs(torque) / self._stall)
+            links = joints.reshape(self._robot.leg_count, -1, 3)[:, self._first].reshape(-1, 3)
+        if not np.array_equal(joints, self._joint_colours):
+            self._joint_colours = joints
+            self._joints.batched_colors, self._links.batched_colors = joints, links
 
     def update(self, position: Array, wxyz: Array, joint_position: Array, contact: NDArray[np.bool_]) -> None:
         """Pose of the body in world, joints (joints,) in rad, and which feet touch the ground (legs,)."""

@@ -3,14 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from weaver_shared.robots import RobotDescription
-
 Array = NDArray[np.float64]
-
-
-def half_width(robot: RobotDescription) -> float:
-    """How far beside the path feet are expected, m."""
-    return float(np.abs(robot.stance_in_body[:, 1]).max()) + robot.foot_radius
 
 
 def upright(count: int) -> Array:

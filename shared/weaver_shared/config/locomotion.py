@@ -5,6 +5,7 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field
 
 Positive = Annotated[float, Field(gt=0.0)]
+NotNegative = Annotated[float, Field(ge=0.0)]
 Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
 
 
@@ -172,9 +173,7 @@ class LocomotionConfig(BaseModel):
     manipulation: ManipulationConfig = ManipulationConfig()
     footing: FootingConfig = FootingConfig()
     overlapping_walkspaces: bool = False  # a foot may come nearer to another leg's stance than to its own
-    last_link_lean: Annotated[float, Field(ge=0.0)] = (
-        0.0  # 1/m, tangent of the last link's lean for each m a foot is from its stance
-    )
+    last_link_lean: NotNegative = 0.0  # 1/m, tangent of the last link's lean for each m a foot is from its stance
     largest_stride: Positive = 0.20  # paper: 0.35 m/s at 1 Hz
     largest_speed: Positive = 0.35  # m/s (paper)
     stop_time: Positive = 0.4  # s from the largest velocity to zero

@@ -212,6 +212,11 @@ class RobotDescription(Part):
         """Foot centres when standing at nominal clearance, (legs, 3); the sole is `foot_radius` lower."""
         return np.array([[*leg.stance_in_body, -self.clearance + self.foot_radius] for leg in self.legs])
 
+    @property
+    def half_width(self) -> float:
+        """How far beside a straight way its feet are set, m."""
+        return float(np.abs(self.stance_in_body[:, 1]).max()) + self.foot_radius
+
 
 def _unique(key: str, names: list[str]) -> None:
     for name in names:

@@ -76,24 +76,18 @@ function Timeline({ replay, marks }: { replay: ReplayState; marks: readonly Repl
           }}
           data={SPEEDS.map((value) => ({ value: String(value), label: `${value} ×` }))}
         />
-        <Button
-          size="xs"
-          variant="default"
-          aria-label="Previous event"
-          disabled={before === undefined}
-          onClick={() => goTo(before)}
-        >
-          Previous
-        </Button>
-        <Button
-          size="xs"
-          variant="default"
-          aria-label="Next event"
-          disabled={after === undefined}
-          onClick={() => goTo(after)}
-        >
-          Next
-        </Button>
+        {([["Previous", before], ["Next", after]] as const).map(([side, mark]) => (
+          <Button
+            key={side}
+            size="xs"
+            variant="default"
+            aria-label={`${side} event`}
+            disabled={mark === undefined}
+            onClick={() => goTo(mark)}
+          >
+            {side}
+          </Button>
+        ))}
         <Button size="xs" variant="default" onClick={() => void endReplay(robot_id)}>
           End replay
         </Button>
