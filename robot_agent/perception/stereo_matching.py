@@ -1,4 +1,4 @@
-"""Semi-global matching of a rectified pair at the working resolution."""
+"""Semi-global matching of a rectified pair at the working resolution, and a second look at what it found."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from robot_agent.perception.photo_consistency import PhotoConsistency
 from weaver_shared.config.perception import MatchingConfig
 
 Picture = NDArray[np.uint8]
@@ -34,7 +35,10 @@ class StereoMatcher:
             speckleRange=1,
             mode=cv2.STEREO_SGBM_MODE_SGBM_3WAY,
         )
+        self._consistency = PhotoConsistency(config.largest_difference, config.picture_noise)
 
     def match(self, left: Picture, right: Picture) -> NDArray[np.int16]:
         """Disparity of the left picture in sixteenths of a pixel, negative where there is no match."""
-        return np.asarray(self._matcher.compute(left, right), dtype=np.int16)
+        disparity = np.asarray(self._matcher.compute(left, right), dtype=np.int16)
+        disparity[self._consistency.unlike(left, right, disparity)] = NO_MATCH
+        return disparity

@@ -133,6 +133,11 @@ def _on_ground(ground: Ground, near: tuple[float, float]) -> np.ndarray:
     return np.array([x[nearest], y[nearest], grid.elevation[rows[nearest], columns[nearest]]])
 
 
+def _is_known(ground: Ground, near: tuple[float, float]) -> bool:
+    """Whether there is a known place within 5 cm of (x, y)."""
+    return bool(np.hypot(*(_on_ground(ground, near)[:2] - near)) < 0.05)
+
+
 def _known_area(ground: Any) -> float:
     """Area of the cells that hold a height, m2."""
     return float(sum((tile.elevation_mm != UNKNOWN_MM).sum() * tile.cell**2 for tile in ground.tiles.values()))
@@ -151,14 +156,18 @@ def test_a_person_walks_the_robot_to_two_clicked_waypoints_and_stops_it(product:
 
     _look_closely(anna, robot)
     known_at_start = _known_area(robot.ground)
+    clicked = []
     for ahead, aside in ((0.9, 0.1), (1.4, -0.1)):
-        anna.click_ground(_on_ground(robot.ground, (begun_at[0] + ahead, begun_at[1] + aside)), begun_at)
+        wanted = (begun_at[0] + ahead, begun_at[1] + aside)
+        robot.wait_until(lambda _, near=wanted: _is_known(robot.ground, near), 30.0, f"nothing is known at {wanted}")
+        clicked.append(_on_ground(robot.ground, wanted))
+        anna.click_ground(clicked[-1], begun_at)
     anna.press("Start mission")
     robot.wait_until(lambda newest: newest["state/mode"].mode == "WALK", 15.0, "it does not walk")
     robot.wait_until(lambda newest: len(newest["state/mission"].waypoints) == 2, 5.0, "the mission is not told")
     first, last = robot.newest["state/mission"].waypoints
-    assert np.hypot(first.x - begun_at[0] - 0.9, first.y - begun_at[1] - 0.1) < 0.25
-    assert np.hypot(last.x - begun_at[0] - 1.4, last.y - begun_at[1] + 0.1) < 0.25
+    assert np.hypot(*(clicked[0][:2] - [first.x, first.y])) < 0.2
+    assert np.hypot(*(clicked[1][:2] - [last.x, last.y])) < 0.2
 
     _override_and_release(anna, robot)
     robot.wait_until(

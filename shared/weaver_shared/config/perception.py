@@ -22,6 +22,8 @@ class MatchingConfig(_Settings):
     uniqueness: Annotated[int, Field(ge=0)] = 8  # percent by which the best cost beats the second
     left_right_difference: Annotated[int, Field(ge=0)] = 1  # px both directions may differ by
     speckle_area: Annotated[int, Field(ge=0)] = 100  # px; smaller islands of disparity are mistakes
+    largest_difference: Positive = 0.5  # of a window's variance, by which both eyes may differ: 0.05 is usual
+    picture_noise: Annotated[float, Field(ge=0.0)] = 4.5  # grey values by which they may differ besides
     disparity_sigma: Positive = 0.24  # px, measured on rendered rough ground at 320 x 240
     smallest_disparity: Positive = 6.0  # px; beyond it a point says little about centimetres
 
