@@ -24,6 +24,7 @@ from weaver_console.missions import MissionStore
 from weaver_console.page_session import PageSession
 from weaver_console.roster import Roster
 from weaver_console.scene.page_scene import PageScene
+from weaver_console.scene.posture import Postures
 from weaver_console.scene.terrain_figure import MeshStore
 
 logger = logging.getLogger(__name__)
@@ -32,14 +33,14 @@ CHECK_PERIOD = 0.1
 EXPIRY_PERIOD = 1.0
 """s between two looks whether whoever has logged in still may be here."""
 
-SCENE_PERIOD = 0.05
-"""20 Hz for the robot in the 3-D views."""
+SCENE_PERIOD = 1.0 / 15.0
+"""15 Hz for the robot in the 3-D views."""
 
-GROUND = 4
+GROUND = 3
 """Pictures between new ground: 5 times a second."""
 
-THRIFT = 3
-"""Only every third picture for a browser without a graphics card."""
+THRIFT = 2
+"""Only every second picture for a browser without a graphics card."""
 
 SCENE_KEPT = 10.0
 """Seconds that the 3-D view of a page outlives its connection, so that a short break does not redraw it."""
@@ -69,7 +70,7 @@ class Hub:
         self._sessions: dict[str, PageSession] = {}
         self._scenes: dict[str, PageScene] = {}
         self._orphaned: dict[str, float] = {}
-        self._store = MeshStore()
+        self._store, self._postures = MeshStore(), Postures()
         self._expiry_due = 0.0
         self._stopping = threading.Event()
         self._drawer = threading.Thread(target=self._draw, name="scenes", daemon=True)
@@ -174,6 +175,7 @@ class Hub:
                 on_pick=lambda point: self._tell(page, "pick", point),
                 on_drag=lambda index, point, done: self._tell(page, "drag", index, point, done),
                 on_legend=lambda scale: self._tell(page, "show_legend", scale),
+                postures=self._postures,
             )
             self._scenes[page] = scene
         if session.scene is not scene:

@@ -45,11 +45,13 @@ class Pace:
         if not self._reports and len(self._on_the_way) > MOST_ON_THE_WAY:
             self._bulk -= self._on_the_way.popleft()[1]
 
-    def taken(self, now: float) -> None:
-        """The page has dealt with the oldest of the frames on the way."""
+    def taken(self, now: float, frames: int = 1) -> None:
+        """The page has dealt with so many of the frames on the way, the oldest ones."""
         self._reports = True
-        if not self._on_the_way:
-            return
+        for _ in range(min(frames, len(self._on_the_way))):
+            self._take(now)
+
+    def _take(self, now: float) -> None:
         when, bulk = self._on_the_way.popleft()
         self._bulk -= bulk
         if now - when > LATE:

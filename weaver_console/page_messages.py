@@ -11,6 +11,8 @@ from weaver_shared.messages import CommandName
 
 LARGEST_FRAME = 256 * 1024
 MOST_WAYPOINTS = 1000
+MOST_TAKEN = 1000
+"""Frames that a page may report at once."""
 
 
 class Place(msgspec.Struct, frozen=True, kw_only=True):
@@ -89,7 +91,9 @@ class Ping(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="pin
 
 
 class Taken(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="taken"):
-    """The page has taken in one more frame."""
+    """The page has taken in so many more frames."""
+
+    frames: Annotated[int, msgspec.Meta(ge=1, le=MOST_TAKEN)] = 1
 
 
 PageMessage = (

@@ -216,7 +216,7 @@ class PageSession:
             case p.Ping():
                 self.tell({"type": "pong", "t": message.t})
             case p.Taken():
-                self._pace.taken(self._loop.time())
+                self._pace.taken(self._loop.time(), message.frames)
 
     def _select(self, robot: str | None) -> None:
         if robot is not None and self._link.robot(robot) is None:

@@ -220,6 +220,7 @@ class ZenohBus:
                 pattern,
                 lambda key, data: self._deliver(key, data, topic, receiver),
                 each_counts=topic.policy is Policy.LOGGED,
+                prompt=topic.priority in (Priority.REAL_TIME, Priority.INTERACTIVE),
             )
         else:
             self._kept.append(

@@ -18,6 +18,18 @@ def test_a_page_that_reports_is_never_more_than_eight_frames_behind():
     assert pace.ready
 
 
+def test_frames_may_be_reported_together():
+    pace = Pace()
+    pace.taken(0.0)
+    for _ in range(MOST_ON_THE_WAY):
+        pace.sent(0.0)
+    pace.taken(0.1, MOST_ON_THE_WAY - 1)
+    for _ in range(MOST_ON_THE_WAY - 1):
+        assert pace.ready
+        pace.sent(0.2)
+    assert not pace.ready
+
+
 def test_a_page_that_does_not_report_is_told_everything():
     pace = Pace()
     for _ in range(100):

@@ -25,11 +25,10 @@ from weaver_console.scene.contours import INTERVAL, contours
 from weaver_console.scene.contours import LIFT as CONTOUR_LIFT
 from weaver_console.scene.layers import TRANSPORT
 from weaver_console.scene.mission_figure import TOP
-from weaver_console.scene.motion_figure import _closed_hull
 from weaver_console.scene.page_scene import PageScene
-from weaver_console.scene.robot_figure import _segments, _turn_z_to
+from weaver_console.scene.posture import Postures, closed_hull, segments, turn_z_to
 from weaver_console.scene.shapes import octasphere, prism
-from weaver_console.scene.terrain_figure import TILES_AN_UPDATE, MeshStore
+from weaver_console.scene.terrain_figure import SEAM_PERIOD, TILES_AN_UPDATE, MeshStore
 from weaver_console.scene_page import scene_page
 from weaver_shared import topics
 from weaver_shared.messages import CameraPicture, PowerState, Waypoint
@@ -96,6 +95,30 @@ def test_a_whole_map_is_drawn_in_parts_and_then_left_alone(field: Field, view: V
     mesh = view.node("/world/terrain/0_0").glb_data
     view.scene.update(record)
     assert view.node("/world/terrain/0_0").glb_data is mesh
+
+
+def test_a_changed_tile_is_drawn_at_once_and_its_seams_soon_after(field: Field, view: View):
+    robot = field.robot()
+    robot.publish_map(1)
+    field.forward(robot, 0.1)
+    record = field.link.robot("weaver")
+    view.scene.update(record)
+    before = {name: view.node(name).glb_data for name in view.names("/world/terrain/")}
+    tile = record.ground.tiles[0, 0]
+    record.ground.put(dataclasses.replace(tile, elevation_mm=tile.elevation_mm[::-1]))
+    view.scene.update(record)
+    assert {name for name, mesh in before.items() if view.node(name).glb_data != mesh} == {"/world/terrain/0_0"}
+    for _ in range(SEAM_PERIOD):
+        view.scene.update(record)
+    redrawn = {name for name, mesh in before.items() if view.node(name).glb_data != mesh}
+    assert redrawn == {f"/world/terrain/{i}_{j}" for i in (-1, 0) for j in (-1, 0)}
+
+
+def test_how_a_robot_stands_is_worked_out_once_for_all_pages(field: Field):
+    robot = load_robot("weaver")
+    postures, state = Postures(), field.robot().state(0)
+    assert postures.of(robot, state) is postures.of(robot, state)
+    assert postures.of(robot, dataclasses.replace(state, stamp_ns=1)) is not postures.of(robot, state)
 
 
 def test_another_layer_recolours_every_tile_and_tells_its_legend(field: Field, view: View):
@@ -343,14 +366,14 @@ directions = st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(-1, 1)).fil
 @given(directions)
 def test_the_shortest_rotation_takes_z_to_the_direction(vector):
     direction = np.array(vector) / np.linalg.norm(vector)
-    (wxyz,) = _turn_z_to(direction[None])
+    (wxyz,) = turn_z_to(direction[None])
     assert np.allclose(rotation_from_wxyz(wxyz) @ [0.0, 0.0, 1.0], direction, atol=1e-6)
 
 
 def test_links_span_the_leg_from_hip_to_foot():
     robot = load_robot("weaver")
     frames = joint_frames_in_body(robot, STANDING)
-    middles, wxyzs, lengths = _segments(frames, np.array([1, 2, 3, 4]), np.array([2, 3, 4, 5]))
+    middles, wxyzs, lengths = segments(frames, np.array([1, 2, 3, 4]))
     assert lengths.reshape(6, 4).sum(axis=1) == pytest.approx(np.full(6, 0.34))
     along = np.array([rotation_from_wxyz(wxyz)[:, 2] for wxyz in wxyzs])
     ends = (middles + 0.5 * lengths[:, None] * along).reshape(6, 4, 3)[:, -1]
@@ -370,7 +393,7 @@ def test_shapes_are_closed_and_face_outwards(shape):
 @given(st.lists(st.tuples(st.floats(-1, 1), st.floats(-1, 1)), min_size=3, max_size=6, unique=True))
 def test_the_support_polygon_has_every_foot_on_its_left(feet):
     points = np.column_stack([np.array(feet), np.zeros(len(feet))])
-    hull = _closed_hull(points)
+    hull = closed_hull(points)
     assert np.array_equal(hull[0], hull[-1])
     for a, b in pairwise(hull):
         turns = (b[0] - a[0]) * (points[:, 1] - a[1]) - (b[1] - a[1]) * (points[:, 0] - a[0])

@@ -13,7 +13,7 @@ from wire_robot import ground_height, ground_tile
 from weaver_console.scene.ground import UNKNOWN_MM, Ground
 from weaver_console.scene.layers import LAYERS, layer_values, legend
 from weaver_console.scene.terrain_figure import MeshStore
-from weaver_console.scene.tile_mesh import height_field_glb, tile_mesh
+from weaver_console.scene.tile_mesh import LINEAR, height_field_glb, tile_mesh
 
 SCALE = legend("elevation", (-0.05, 0.12))
 
@@ -42,7 +42,8 @@ def test_a_small_height_field_has_these_very_bytes():
     elevation = np.array([[0, 10], [20, -30]], dtype=np.int16)
     colours = np.array([[[0, 128, 255], [255, 0, 0]], [[1, 2, 3], [9, 9, 9]]], dtype=np.uint8)
     faces = np.array([[0, 2, 3], [0, 3, 1]], dtype=np.uint16)
-    glb = height_field_glb(elevation, colours, faces, origin=(1.5, -2.0), cell=0.02)
+    opaque = np.dstack([LINEAR[colours], np.full((2, 2), 255, dtype=np.uint8)])
+    glb = height_field_glb(elevation, opaque, faces, origin=(1.5, -2.0), cell=0.02)
     assert glb[:4] == b"glTF"
     assert struct.unpack("<I", glb[8:12])[0] == len(glb)
     assert len(glb) % 4 == 0

@@ -92,8 +92,8 @@ class PageClient:
     async def _take(self, connection: ClientConnection) -> None:
         while True:
             await asyncio.sleep(TAKING)
-            for _ in range(self._untaken):
-                await connection.send('{"type":"taken"}')
+            if self._untaken:
+                await connection.send(f'{{"type":"taken","frames":{self._untaken}}}')
             self._untaken = 0
 
     async def _ask(self, connection: ClientConnection) -> None:

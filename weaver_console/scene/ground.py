@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import count
+from itertools import count, takewhile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -98,6 +98,7 @@ class Ground:
         self.tiles: dict[TileIndex, MapTile] = {}
         self.versions: dict[TileIndex, int] = {}
         self.version = 0
+        self._order: dict[TileIndex, None] = {}  # those changed last come last
         self._ranges: dict[TileIndex, tuple[int, int]] = {}  # mm, of the tiles in which something is known
 
     def put(self, tile: MapTile) -> None:
@@ -105,11 +106,17 @@ class Ground:
         self.version += 1
         self.tiles[index] = tile
         self.versions[index] = self.version
+        self._order.pop(index, None)
+        self._order[index] = None
         known = tile.elevation_mm[tile.elevation_mm != UNKNOWN_MM]
         if known.size:
             self._ranges[index] = (int(known.min()), int(known.max()))
         else:
             self._ranges.pop(index, None)
+
+    def changed_since(self, version: int) -> list[TileIndex]:
+        """Places of the tiles that are newer than this version."""
+        return list(takewhile(lambda index: self.versions[index] > version, reversed(list(self._order))))
 
     def grid(self) -> HeightGrid | None:
         """All tiles as one grid; None before the first. Tiles of another size or cell than the newest are left out."""

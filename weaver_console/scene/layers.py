@@ -46,12 +46,20 @@ class Legend:
 
     def colours(self, values: Array) -> NDArray[np.uint8]:
         """sRGB of values (...), (..., 3); NaN is the colour of the unknown."""
-        low, high = self.stops[0][0], self.stops[-1][0]
-        share = np.clip((values - low) / (high - low), 0.0, 1.0)
-        known = np.isfinite(share)
-        shade = np.where(known, np.rint((SHADES - 1) * np.where(known, share, 0.0)), SHADES).astype(int)
-        colours: NDArray[np.uint8] = _table(self.stops)[shade]
+        colours: NDArray[np.uint8] = self.table[self.shades(values)]
         return colours
+
+    def shades(self, values: Array) -> NDArray[np.int64]:
+        """Rows of `table` for values (...)."""
+        low, high = self.stops[0][0], self.stops[-1][0]
+        share = np.rint((SHADES - 1) * np.clip((values - low) / (high - low), 0.0, 1.0))
+        share[np.isnan(share)] = SHADES
+        return share.astype(np.int64)
+
+    @property
+    def table(self) -> NDArray[np.uint8]:
+        """sRGB in equal steps from the first stop to the last, and that of the unknown, (SHADES + 1, 3)."""
+        return _table(self.stops)
 
     def to_page(self) -> dict[str, object]:
         stops = [[round(value, 4), colour] for value, colour in self.stops]
@@ -90,6 +98,11 @@ def legend(layer: str, elevation_range: tuple[float, float] | None = None) -> Le
     if layer == "age":
         return Legend(layer=layer, label="Age", unit="s", stops=_spread(0.0, 254.0, _FADE))
     raise ValueError(f"layer {layer!r} is unknown; known are {', '.join(LAYERS)}")
+
+
+def layer_field(layer: str) -> str:
+    """The field of a map tile that holds a layer."""
+    return {"elevation": "elevation_mm", "uncertainty": "sigma_mm", "age": "age_s"}.get(layer, layer)
 
 
 def layer_values(tile: MapTile, layer: str) -> Array:

@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from weaver_console.scene.node_values import assign
+
 Array = NDArray[np.float64]
 NONE = np.zeros((0, 2, 3))
 
@@ -15,11 +17,12 @@ class Lines:
     def __init__(self, scene: Any, name: str, colour: tuple[int, int, int], thickness: float = 0.008) -> None:
         self._node = scene.add_line_segments(name, np.zeros((1, 2, 3), np.float32), colour, thickness=thickness)
         self._node.visible = False
+        self._colour: tuple[int, int, int] | None = colour
 
     def show(self, segments: Array) -> None:
         """Segments (n, 2, 3)."""
         if len(segments):
-            self._node.points = segments.astype(np.float32)
+            assign(self._node, points=segments.astype(np.float32))
         self._node.visible = len(segments) > 0
 
     def chain(self, points: Array) -> None:
@@ -29,11 +32,14 @@ class Lines:
     def show_in(self, segments: Array, colours: NDArray[np.uint8]) -> None:
         """Segments (n, 2, 3), each in a colour of its own (n, 3)."""
         if len(segments):
-            self._node.points, self._node.colors = segments.astype(np.float32), np.repeat(colours[:, None], 2, axis=1)
+            self._colour = None
+            assign(self._node, points=segments.astype(np.float32), colors=np.repeat(colours[:, None], 2, axis=1))
         self._node.visible = len(segments) > 0
 
     def colour(self, colour: tuple[int, int, int]) -> None:
-        self._node.colors = np.array(colour, dtype=np.uint8)
+        if colour != self._colour:
+            self._colour = colour
+            self._node.colors = np.array(colour, dtype=np.uint8)
 
 
 def chained(points: Array) -> Array:

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from weaver_console.scene.balance_figure import BalanceFigure
 from weaver_console.scene.layers import TRANSPORT
 from weaver_console.scene.lines import NONE, Lines, chained
+from weaver_console.scene.node_values import place
+from weaver_console.scene.posture import Posture
 from weaver_shared.messages import MissionState, OdometryEstimate, RobotState, TruthState
 from weaver_shared.robots import RobotDescription
-from weaver_shared.transforms import Pose
 
 Array = NDArray[np.float64]
 
@@ -43,19 +44,16 @@ class MotionFigure:
         self._truth = scene.add_frame(f"{name}/truth", show_axes=False, visible=False)
         box = Lines(scene, f"{name}/truth/outline", _TRUTH, thickness=0.006)
         box.show(_box_edges(robot))
-        self._balance = BalanceFigure(scene, f"{name}/balance", robot)
+        self._balance = BalanceFigure(scene, f"{name}/balance")
         self._trail: list[Array] = []
         self._costs: list[float] = []
         self._trail_shown = True
         self._stable: bool | None = None
 
-    def update(self, state: RobotState) -> None:
-        world_from_body = Pose.of(state.position_in_world, state.wxyz)
-        feet = world_from_body.transform(state.foot_in_body)
-        standing = feet[state.foot_contact]
-        hull = _closed_hull(standing)
-        self._support.chain(hull)
-        self._balance.update(world_from_body, state.joint_position, hull, state.stability_margin)
+    def update(self, posture: Posture) -> None:
+        state, feet = posture.state, posture.feet_in_world
+        self._support.chain(posture.support)
+        self._balance.update(posture.mass, posture.support, state.stability_margin)
         self._colour_support(state.stability_margin > 0.0)
         force = np.clip(state.foot_force, 0.0, 200.0)[:, None] * np.array([0.0, 0.0, FORCE_SCALE])
         self._forces.show(np.stack([feet, feet + force], axis=1)[state.foot_contact & (state.foot_force > 1.0)])
@@ -82,7 +80,7 @@ class MotionFigure:
     def truth(self, truth: TruthState | None) -> None:
         self._truth.visible = truth is not None
         if truth is not None:
-            self._truth.position, self._truth.wxyz = truth.position_in_world, truth.wxyz
+            place(self._truth, truth.position_in_world, truth.wxyz)
 
     def show_trail(self, wanted: bool) -> None:
         self._trail_shown = wanted
@@ -105,29 +103,6 @@ class MotionFigure:
         if stable is not self._stable:
             self._stable = stable
             self._support.colour(_SUPPORT if stable else _UNSTABLE)
-
-
-def _closed_hull(points: Array) -> Array:
-    """Corners of the horizontal convex hull in order, the first repeated, (n, 3); empty below three points."""
-    if len(points) < 3:
-        return np.zeros((0, 3))
-    order = points[np.lexsort((points[:, 1], points[:, 0]))]
-    hull = _half_hull(order)[:-1] + _half_hull(order[::-1])[:-1]
-    return np.array([*hull, hull[0]])
-
-
-def _half_hull(points: Array) -> list[Array]:
-    """Andrew's monotone chain: the hull's lower side for points sorted by x."""
-    hull: list[Array] = []
-    for point in points:
-        while len(hull) > 1 and _turn(hull[-2], hull[-1], point) <= 0.0:
-            hull.pop()
-        hull.append(point)
-    return hull
-
-
-def _turn(a: Array, b: Array, c: Array) -> float:
-    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
 
 def _box_edges(robot: RobotDescription) -> Array:

@@ -26,6 +26,7 @@ from weaver_console.scene.layers import Legend
 from weaver_console.scene.measure_figure import MeasureFigure
 from weaver_console.scene.mission_figure import TOP, Course, MissionFigure
 from weaver_console.scene.motion_figure import MotionFigure
+from weaver_console.scene.posture import Postures
 from weaver_console.scene.robot_figure import RobotFigure
 from weaver_console.scene.terrain_figure import MeshStore, TerrainFigure
 from weaver_shared.bus import free_port
@@ -91,6 +92,7 @@ class _Shown:
     frusta: dict[str, Any] = field(default_factory=dict)
     followed: Array | None = None
     drawn: RobotState | None = None
+    drawable: bool = False  # whether the newest state fits the robot
     versions: dict[str, int] = field(default_factory=dict)
 
 
@@ -105,8 +107,10 @@ class PageScene:
         on_pick: Callable[[Array | None], None],
         on_drag: Callable[[int, Array, bool], None],
         on_legend: Callable[[Legend], None],
+        postures: Postures | None = None,
     ) -> None:
         self._store = store
+        self._postures = postures or Postures()
         self._on_drag = on_drag
         self._held: Array | None = None
         self._on_pick = on_pick
@@ -138,7 +142,7 @@ class PageScene:
             self._server.stop()
 
     def update(self, record: RobotRecord | None, *, ground_due: bool = True) -> None:
-        """Draw what is new of the selected robot; called some 20 times a second, by one thread.
+        """Draw what is new of the selected robot; called some 15 times a second, by one thread.
 
         New ground is drawn only when it is due: for all pages in the same call, since they share its meshes.
         """
@@ -180,18 +184,24 @@ class PageScene:
         return self._shown.terrain.legend if self._shown is not None else None
 
     def _update_robot(self, shown: _Shown, record: RobotRecord, wishes: Wishes) -> None:
-        state = record.newest("tele/state", RobotState)
-        if state is None or shown.figure is None or shown.motion is None or not _drawable(state, shown.robot):
+        state, robot = record.newest("tele/state", RobotState), shown.robot
+        if state is None or robot is None or shown.figure is None or shown.motion is None:
+            return
+        new = _new(shown, record, "tele/state")
+        if new:
+            shown.drawable = _drawable(state, robot)
+        if not shown.drawable:
             return
         if shown.drawn is None:
             self._place_camera(state.position_in_world)
-        if _new(shown, record, "tele/state") and _moved(shown.drawn, state):
+        if new and _moved(shown.drawn, state):
             shown.drawn = state
-            shown.figure.update(state.position_in_world, state.wxyz, state.joint_position, state.foot_contact)
+            posture = self._postures.of(robot, state)
+            shown.figure.update(posture)
             power = record.newest("tele/power", PowerState)
             shown.motion.leave_trail(state, power.cost_of_transport if power is not None else float("nan"))
             if _changed(shown, "lines", state.stamp_ns // LINES_PERIOD_NS):
-                shown.motion.update(state)
+                shown.motion.update(posture)
                 shown.motion.lookahead(state, record.mission)
         odometry = record.newest("tele/odometry", OdometryEstimate)
         if odometry is not None and _new(shown, record, "tele/odometry"):
@@ -335,9 +345,9 @@ def _show_pictures(shown: _Shown, record: RobotRecord, wanted: bool) -> None:
             frustum._format, frustum._image_data = "jpeg", picture.jpeg
 
 
-def _drawable(state: RobotState, robot: RobotDescription | None) -> bool:
+def _drawable(state: RobotState, robot: RobotDescription) -> bool:
     """Whether the state fits the description and holds numbers: another program's robot may not crash the scene."""
-    if robot is None or state.joint_position.shape != (robot.joint_count,):
+    if state.joint_position.shape != (robot.joint_count,):
         return False
     if state.foot_in_body.shape != (robot.leg_count, 3) or state.foot_contact.shape != (robot.leg_count,):
         return False

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weaver_console.scene.layers import TORQUE
+from weaver_console.scene.node_values import assign, place
+from weaver_console.scene.posture import Posture, segments, visible_links
 from weaver_console.scene.shapes import octasphere, prism, upright
 from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import joint_frames_in_body
@@ -16,7 +18,6 @@ Array = NDArray[np.float64]
 
 LINK_WIDTH = 0.026
 JOINT_RADIUS = 0.021
-SHORTEST_LINK = 0.005
 
 _BODY_COLOUR = (58, 66, 78)
 _EYE_COLOUR = (20, 22, 26)
@@ -34,8 +35,8 @@ class RobotFigure:
         self._frame = scene.add_frame(name, show_axes=False)
         self._add_body(scene, name)
         frames = joint_frames_in_body(robot, np.zeros(robot.joint_count))
-        self._first, self._last = _links(frames)
-        positions, wxyzs, lengths = _segments(frames, self._first, self._last)
+        self._first = visible_links(frames)
+        positions, wxyzs, lengths = segments(frames, self._first)
         vertices, faces = prism()
         scales = np.stack([np.full(lengths.size, LINK_WIDTH), np.full(lengths.size, LINK_WIDTH), lengths], axis=1)
         shape = {"lod": "off", "cast_shadow": False, "receive_shadow": False}
@@ -82,14 +83,15 @@ class RobotFigure:
             self._joint_colours = joints
             self._joints.batched_colors, self._links.batched_colors = joints, links
 
-    def update(self, position: Array, wxyz: Array, joint_position: Array, contact: NDArray[np.bool_]) -> None:
-        """Pose of the body in world, joints (joints,) in rad, and which feet touch the ground (legs,)."""
-        frames = joint_frames_in_body(self._robot, joint_position)
-        positions, wxyzs, _ = _segments(frames, self._first, self._last)
-        self._frame.position, self._frame.wxyz = position, wxyz
-        self._links.batched_positions, self._links.batched_wxyzs = positions, wxyzs
-        self._joints.batched_positions = frames[:, :-1, :3, 3].reshape(-1, 3)
-        self._feet.batched_positions = frames[:, -1, :3, 3]
+    def update(self, posture: Posture) -> None:
+        """Show how the robot stands, and which feet touch the ground."""
+        state = posture.state
+        middles, wxyzs = posture.links
+        place(self._frame, state.position_in_world, state.wxyz)
+        assign(self._links, batched_positions=middles, batched_wxyzs=wxyzs)
+        assign(self._joints, batched_positions=posture.joints)
+        assign(self._feet, batched_positions=posture.feet)
+        contact = state.foot_contact
         if self._contact is None or not np.array_equal(contact, self._contact):
             self._contact = contact
             colours = np.where(contact[:, None], _CONTACT_COLOUR, _SWING_COLOUR)
@@ -97,28 +99,3 @@ class RobotFigure:
 
     def remove(self) -> None:
         self._frame.remove()
-
-
-def _links(frames: Array) -> tuple[NDArray[np.int_], NDArray[np.int_]]:
-    """Chain positions each visible link begins and ends at: frames that coincide are one joint, (legs, joints + 1)."""
-    points = frames[0, :, :3, 3]
-    lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    first = np.flatnonzero(lengths > SHORTEST_LINK)
-    return first, first + 1
-
-
-def _segments(frames: Array, first: NDArray[np.int_], last: NDArray[np.int_]) -> tuple[Array, Array, Array]:
-    """Middles (n, 3), attitudes (n, 4) with z along the link, and lengths (n,) of the links of all legs, in body."""
-    points = frames[..., :3, 3]
-    begin, end = points[:, first].reshape(-1, 3), points[:, last].reshape(-1, 3)
-    lengths = np.linalg.norm(end - begin, axis=1)
-    return 0.5 * (begin + end), _turn_z_to((end - begin) / lengths[:, None]), lengths
-
-
-def _turn_z_to(direction: Array) -> Array:
-    """Shortest rotations (n, 4), w first, that take z to unit directions (n, 3)."""
-    wxyz = np.stack([1.0 + direction[:, 2], -direction[:, 1], direction[:, 0], np.zeros(len(direction))], axis=1)
-    norm = np.linalg.norm(wxyz, axis=1, keepdims=True)
-    opposite = norm[:, 0] < 1e-6
-    wxyz[opposite], norm[opposite] = (0.0, 1.0, 0.0, 0.0), 1.0
-    return np.asarray(wxyz / norm)

@@ -1,4 +1,4 @@
-"""The ground in the scene: one node a tile, sent again only when it, its neighbour or its colours have changed."""
+"""The ground in the scene: one node a tile, sent again only when it, its neighbours or its colours have changed."""
 
 from __future__ import annotations
 
@@ -6,10 +6,16 @@ from typing import Any
 
 from weaver_console.scene.ground import Ground, TileIndex
 from weaver_console.scene.layers import Legend, legend
+from weaver_console.scene.node_values import assign
 from weaver_console.scene.tile_mesh import tile_mesh
 
 TILES_AN_UPDATE = 12
 """Most tiles made in one update, so that a whole map never holds up the robot's pose."""
+
+
+SEAM_PERIOD = 5
+"""Updates after which tiles are drawn again of which only a neighbour's edge has changed: half of all there were to
+draw, for a seam of a few millimetres."""
 
 
 class MeshStore:
@@ -40,6 +46,8 @@ class TerrainFigure:
         self._ground_version = -1
         self._ground: Ground | None = None
         self._left: list[TileIndex] = []
+        self._seams: dict[TileIndex, None] = {}
+        self._updates = 0
         self.legend = legend("elevation")
 
     @property
@@ -53,15 +61,18 @@ class TerrainFigure:
             self.clear()
             self._ground = ground
         changed = self._rescale(ground, layer)
-        if changed or self.unfinished or ground.version != self._ground_version:
-            self._ground_version = ground.version
-            self._draw(ground)
+        if changed:
+            self._left, self._ground_version = [], -1
+        self._updates += 1
+        seams_due = bool(self._seams) and self._updates % SEAM_PERIOD == 0
+        if self.unfinished or seams_due or ground.version != self._ground_version:
+            self._draw(ground, seams_due)
         return changed
 
     def clear(self) -> None:
         for node in self._nodes.values():
             node.remove()
-        self._nodes, self._shown, self._left, self._ground_version = {}, {}, [], -1
+        self._nodes, self._shown, self._left, self._seams, self._ground_version = {}, {}, [], {}, -1
 
     def _rescale(self, ground: Ground, layer: str) -> bool:
         if layer == self.legend.layer and (layer != "elevation" or ground.version == self._ground_version):
@@ -72,10 +83,17 @@ class TerrainFigure:
         self.legend = scale
         return True
 
-    def _draw(self, ground: Ground) -> None:
+    def _draw(self, ground: Ground, seams_due: bool) -> None:
         """What had changed is drawn before what changes meanwhile, or a busy map would never be finished."""
         if not self._left:
-            self._left = [index for index in list(ground.tiles) if self._shown.get(index) != self._seen(ground, index)]
+            since, self._ground_version = self._ground_version, ground.version
+            changed = ground.changed_since(since)
+            self._seams.update(dict.fromkeys(place for index in changed for place in _borrowers(index)))
+            touched = [*changed, *self._seams] if seams_due else changed
+            if seams_due:
+                self._seams = {}
+            known = [index for index in dict.fromkeys(touched) if index in ground.tiles]
+            self._left = [index for index in known if self._shown.get(index) != self._seen(ground, index)]
         now, self._left = self._left[:TILES_AN_UPDATE], self._left[TILES_AN_UPDATE:]
         for index in now:
             self._shown[index] = self._seen(ground, index)
@@ -91,7 +109,7 @@ class TerrainFigure:
                 node.remove()
                 del self._nodes[index]
         elif node is not None:
-            node.glb_data = mesh
+            assign(node, glb_data=mesh)
         else:
             name = f"{self._name}/{index[0]}_{index[1]}"
             self._nodes[index] = self._scene.add_glb(name, mesh, cast_shadow=False, receive_shadow=False)
@@ -101,6 +119,12 @@ def _content(ground: Ground, index: TileIndex) -> tuple[int, ...]:
     """Versions of a tile and of the three neighbours whose edge it borrows."""
     i, j = index
     return tuple(ground.versions.get(place, 0) for place in ((i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)))
+
+
+def _borrowers(index: TileIndex) -> tuple[TileIndex, ...]:
+    """The three neighbours whose meshes reach into this tile."""
+    i, j = index
+    return (i - 1, j), (i, j - 1), (i - 1, j - 1)
 
 
 def _covers(old: Legend, new: Legend) -> bool:

@@ -26,6 +26,7 @@ const USABLE = "weaver.usable";
 const page = newPageId();
 let waiting: Incoming[] = [];
 let unansweredPings = 0;
+const MOST_TAKEN = 1000; // that the console lets a page tell at once
 let untakenFrames = 0;
 let flushTimer: ReturnType<typeof setTimeout> | undefined;
 let flushPeriod = FLUSH_PERIODS.shortest;
@@ -96,7 +97,8 @@ function flush(): void {
     afterPainting(() => (flushPeriod = periodOf(performance.now() - began)));
   }
   // NOTE: told only after the work, so that a busy page is sent less rather than later.
-  for (; untakenFrames > 0; untakenFrames--) send({ type: "taken" });
+  if (untakenFrames > 0) send({ type: "taken", frames: Math.min(untakenFrames, MOST_TAKEN) });
+  untakenFrames = 0;
 }
 
 function periodOf(cost: number): number {

@@ -174,7 +174,7 @@ export type Outgoing =
   | { type: "measure"; places: readonly Waypoint[] }
   | { type: "watch"; cameras: boolean }
   | { type: "ping"; t: number }
-  | { type: "taken" };
+  | { type: "taken"; frames: number };
 
 /** The messages of a frame; an unreadable frame is none, so that one bad sender can not stop the page. */
 export function parseFrame(text: string): Incoming[] {
