@@ -49,6 +49,10 @@ class Body(Protocol):
         """What is wrong with it now."""
         ...
 
+    def joint_faults(self) -> Sequence[str]:
+        """What is wrong with each joint's servo, empty where it is well; nothing at all if the servos do not tell."""
+        ...
+
     @property
     def holding(self) -> bool:
         """Whether its servos bear it with torque, as those of a robot whose program has died do."""

@@ -159,7 +159,7 @@ class WalkLoop:
         )
         for text in tick.walk.events:
             self.desk.note(Severity.WARNING, text)
-        self._telemetry.publish(tick, sensed, self.desk)
+        self._telemetry.publish(tick, sensed, self.desk, self._body.joint_faults)
         self._ticks += 1
         if self._ticks % HEALTH_TICKS == 0:
             age = self._pipeline.odometry_age

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -27,6 +28,7 @@ from weaver_shared.messages import (
     Presence,
     Proprioception,
     RobotState,
+    ServoStates,
     Severity,
 )
 from weaver_shared.robots import RobotDescription
@@ -87,8 +89,14 @@ class Telemetry:
         self._mode = ""
         self._goal: NavigationGoal | None = None
 
-    def publish(self, tick: WalkTick, sensed: Proprioception, desk: CommandDesk) -> None:
-        """Send what is due in this tick."""
+    def publish(
+        self,
+        tick: WalkTick,
+        sensed: Proprioception,
+        desk: CommandDesk,
+        joint_faults: Callable[[], Sequence[str]] = tuple,
+    ) -> None:
+        """Send what is due in this tick; `joint_faults` is asked when it is."""
         self._measure(tick, sensed)
         self._publish(topics.PROPRIOCEPTION, sensed)
         if self._due(topics.HEARTBEAT):
@@ -102,6 +110,13 @@ class Telemetry:
             self._publish(topics.LOCOMOTION, _locomotion_state(tick))
         if self._due(topics.ADAPTATION):
             self._publish(topics.ADAPTATION, tick.report)
+        if self._due(topics.SERVOS):
+            self._publish(
+                topics.SERVOS,
+                ServoStates(
+                    stamp_ns=sensed.stamp_ns, temperature=sensed.joint_temperature, faults=tuple(joint_faults())
+                ),
+            )
         if self._due(topics.POWER):
             self._publish(topics.POWER, self._ledger.state(sensed))
         if self._due(topics.PRESENCE):

@@ -102,6 +102,10 @@ class SimulatedBody:
         """A simulated robot has no troubles of its own."""
         return ()
 
+    def joint_faults(self) -> tuple[str, ...]:
+        """A simulated servo tells nothing of faults."""
+        return ()
+
     @property
     def holding(self) -> bool:
         return False

@@ -18,6 +18,7 @@ PERIODS_NS = {
     "tele/locomotion": 200_000_000,
     "tele/adaptation": 100_000_000,
     "tele/power": 200_000_000,
+    "tele/servos": 500_000_000,
     "tele/health/": 400_000_000,
     "tele/odometry": 200_000_000,
     "tele/terrain": 200_000_000,

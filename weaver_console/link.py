@@ -24,6 +24,7 @@ WATCHED: tuple[Topic, ...] = (
     topics.GAIT,
     topics.LOCOMOTION,
     topics.ADAPTATION,
+    topics.SERVOS,
     topics.POWER,
     topics.HEALTH,
     topics.MAP_TILE,

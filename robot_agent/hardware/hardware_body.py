@@ -203,6 +203,13 @@ class HardwareBody:
             *(Trouble(text=text, action=SafetyAction.ALLOW) for text in said),
         ]
 
+    def joint_faults(self) -> tuple[str, ...]:
+        """By the servos' own error bits and by what is heard of them."""
+        return tuple(
+            fault or ("is stuck" if stuck else "")
+            for fault, stuck in zip(self.watch.faults(), self._stuck.stuck, strict=True)
+        )
+
     def troubles(self) -> Sequence[str]:
         """The same, one sentence each."""
         return [trouble.text for trouble in self.findings()]

@@ -94,22 +94,32 @@ class JointWatch:
         """What is wrong with which joints, but for those `unheard` (joints,) of; the robot holds for each."""
         if (self.state == JointState.RESET).all():
             return [Trouble(text="the servos' supply has failed: none knows its settings", action=SafetyAction.CUT)]
-        troubles = []
-        names = self._wiring.robot.joint_names
-        for joint in map(int, np.flatnonzero((self.state > JointState.MISSING) & ~unheard)):
-            state = JointState(self.state[joint])
-            if state is JointState.JUMPED and self._jumping[joint] < JUMPED_CYCLES:
-                continue
-            text = {
-                JointState.LOST: "does not answer",
-                JointState.RESET: "has lost power for a moment and its settings with it",
-                JointState.SHUT_DOWN: f"has shut down: {self._errors(joint)}",
-                JointState.STOPPED: "has stopped: nothing was heard from the computer",
-                JointState.LIMP: "has no torque though it was ordered",
-                JointState.JUMPED: "tells an angle it can not have reached",
-            }[state]
-            troubles.append(Trouble(text=f"servo {names[joint]} {text}", action=SafetyAction.HOLD))
-        return troubles
+        faults = zip(self._wiring.robot.joint_names, self.faults(), unheard, strict=True)
+        return [
+            Trouble(text=f"servo {name} {fault}", action=SafetyAction.HOLD)
+            for name, fault, silent in faults
+            if fault and not silent
+        ]
+
+    def faults(self) -> tuple[str, ...]:
+        """What is wrong with each joint's servo; empty where it is well, or only just missing."""
+        faults = [""] * len(self.state)
+        for joint in map(int, np.flatnonzero(self.state > JointState.MISSING)):
+            faults[joint] = self._fault(joint)
+        return tuple(faults)
+
+    def _fault(self, joint: int) -> str:
+        state = JointState(self.state[joint])
+        if state is JointState.JUMPED and self._jumping[joint] < JUMPED_CYCLES:
+            return ""
+        return {
+            JointState.LOST: "does not answer",
+            JointState.RESET: "has lost power for a moment and its settings with it",
+            JointState.SHUT_DOWN: f"has shut down: {self._errors(joint)}",
+            JointState.STOPPED: "has stopped: nothing was heard from the computer",
+            JointState.LIMP: "has no torque though it was ordered",
+            JointState.JUMPED: "tells an angle it can not have reached",
+        }[state]
 
     def _keep(self, taken: Flags, position: Array, exchange: CyclicExchange, now_ns: int) -> None:
         block, joints = exchange.block[taken], self._all[taken]

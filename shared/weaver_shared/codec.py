@@ -1,7 +1,8 @@
 """Messages to bytes and back: MessagePack with a schema version, arrays as raw little-endian buffers.
 
 Only this module knows the wire format. A message is the list [version, tag, field, field, ...]; an array is the
-list [dtype, shape, bytes].
+list [dtype, shape, bytes]. Fields are only ever added at the end and with a default, which stands for them in older
+messages.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ M = TypeVar("M")
 _DTYPES = {"|b1", "|u1", "<i2", "<i8", "<f4", "<f8"}
 _encoder = msgspec.msgpack.Encoder()
 _layouts: dict[type[Any], dict[str, Any]] = {}
+_fewest: dict[type[Any], int] = {}
+"""Fields that a message must have: those without a default."""
 
 
 def encode(message: Any) -> bytes:
@@ -52,10 +55,10 @@ def decode(data: bytes | bytearray | memoryview, kind: type[M]) -> M:
 
 def _build(kind: type[M], values: list[Any]) -> M:
     layout = _layout(kind)
-    if len(values) != len(layout):
+    if not _fewest[kind] <= len(values) <= len(layout):
         raise MessageError(f"{kind.__name__}: {len(values)} fields, expected {len(layout)}")
     try:
-        return kind(**{name: _restore(layout[name], value) for name, value in zip(layout, values, strict=True)})
+        return kind(**{name: _restore(layout[name], value) for name, value in zip(layout, values, strict=False)})
     except MessageError:
         raise
     except (msgspec.ValidationError, TypeError, ValueError, OverflowError) as error:
@@ -67,7 +70,9 @@ def _layout(kind: type[Any]) -> dict[str, Any]:
     layout = _layouts.get(kind)
     if layout is None:
         hints = typing.get_type_hints(kind)
-        layout = _layouts[kind] = {field.name: hints[field.name] for field in dataclasses.fields(kind)}
+        fields = dataclasses.fields(kind)
+        layout = _layouts[kind] = {field.name: hints[field.name] for field in fields}
+        _fewest[kind] = sum(field.default is dataclasses.MISSING for field in fields)
     return layout
 
 

@@ -67,6 +67,7 @@ STATE = _topic("tele/state", m.RobotState, 50.0, Priority.INTERACTIVE, Policy.LA
 GAIT = _topic("tele/gait", m.GaitState, 20.0, Priority.INTERACTIVE, Policy.LATEST)
 LOCOMOTION = _topic("tele/locomotion", m.LocomotionState, 20.0, Priority.INTERACTIVE, Policy.LATEST)
 ADAPTATION = _topic("tele/adaptation", m.AdaptationReport, 10.0, Priority.INTERACTIVE, Policy.LATEST)
+SERVOS = _topic("tele/servos", m.ServoStates, 5.0, Priority.DATA, Policy.LATEST)
 POWER = _topic("tele/power", m.PowerState, 5.0, Priority.DATA, Policy.LATEST)
 HEALTH = _topic("tele/health/{process}", m.Health, 2.0, Priority.DATA, Policy.LATEST)
 MAP_TILE = _topic("tele/map/tile/{i}_{j}", m.MapTile, 5.0, Priority.BACKGROUND, Policy.RELIABLE)

@@ -86,6 +86,9 @@ class TwinBody:
     def findings(self) -> list[Trouble]:
         return self._body.findings()
 
+    def joint_faults(self) -> tuple[str, ...]:
+        return self._body.joint_faults()
+
     @property
     def holding(self) -> bool:
         return self._body.holding

@@ -37,6 +37,7 @@ from weaver_shared.messages import (
     MotionOrders,
     OdometryEstimate,
     OdometryQuality,
+    ServoStates,
 )
 
 PATIENT_LEASE = 20.0  # s
@@ -46,6 +47,7 @@ class FullRobot(WireRobot):
     def __init__(self, bus: MemoryBus, robot_id: str, folder: Path, **settings: str) -> None:
         super().__init__(bus, robot_id, **settings)
         self.quality, self.temperature = OdometryQuality.GOOD, 41.0
+        self.faults: tuple[str, ...] = ()
         self.real_time_factor = 1.0
         self.areas: tuple[Area, ...] = ()
         self._recorder = RecordingProcess(
@@ -76,6 +78,7 @@ class FullRobot(WireRobot):
             self.waypoints, self.next_waypoint, self.overrides = (), 0, {}
             self.place, self.commands, self.areas = np.zeros(2), [], ()
             self.quality, self.temperature, self.real_time_factor = OdometryQuality.GOOD, 41.0, 1.0
+            self.faults = ()
 
     def _decide(self, command: Command) -> Answer:
         """A busy computer holds up pages for seconds; losing control by that is not what these tests are about."""
@@ -101,6 +104,7 @@ class FullRobot(WireRobot):
         if self.tick % 10 == 1:
             self.bus.publish(self.robot_id, topics.CAMERA, _picture(stamp_ns, self.tick), name="left")
             self._publish(topics.MOTION, self._motion(stamp_ns))
+            self._publish(topics.SERVOS, self._servos(stamp_ns))
         if self.tick % 25 == 1:
             self.bus.publish(self.robot_id, topics.HEALTH, self._health(stamp_ns, "walk"), process="walk")
             self.bus.publish(self.robot_id, topics.HEALTH, self._health(stamp_ns, "vision"), process="vision")
@@ -173,6 +177,10 @@ class FullRobot(WireRobot):
             tracked_features=140 if seeing else 0,
             max_temperature=float("nan") if seeing else self.temperature,
         )
+
+    def _servos(self, stamp_ns: int) -> ServoStates:
+        temperature = np.linspace(30.0, self.temperature, self.description.joint_count)
+        return ServoStates(stamp_ns=stamp_ns, temperature=temperature, faults=self.faults)
 
     def _outlook(self, stamp_ns: int) -> MissionOutlook:
         return MissionOutlook(

@@ -95,4 +95,7 @@ class KinematicBody:
     def findings(self) -> tuple[Trouble, ...]:
         return ()
 
+    def joint_faults(self) -> tuple[str, ...]:
+        return ()
+
     def close(self) -> None: ...

@@ -122,6 +122,9 @@ def test_a_shutdown_is_seen_in_the_same_cycle(twin: Twin, fault: str) -> None:
     assert ticks_until(twin, lambda: twin.body.watch.state[7] == JointState.SHUT_DOWN) == 1
     assert not twin.body.watch.valid[7]
     assert twin.body.troubles()[0].startswith("servo BR_femur has shut down: over")
+    told = twin.body.joint_faults()
+    assert told[7].startswith("has shut down: over")
+    assert [joint for joint, fault in enumerate(told) if fault] == [7]
     others = [s for s in twin.servos.servos if s is not servo]
     assert all(s.table[r.TORQUE_ENABLE] for s in others)
 

@@ -170,6 +170,15 @@ def test_a_refusal_says_what_is_wrong(data: bytes, sentence: str) -> None:
         codec.decode(data, Heartbeat)
 
 
+def test_a_field_added_since_a_message_was_recorded_has_its_default() -> None:
+    whole = msgspec.msgpack.decode(codec.encode(Answer(accepted=True, reason="ok", lease_epoch=3, applied_value=0.5)))
+    assert codec.decode(msgspec.msgpack.encode(whole[:-1]), Answer) == Answer(
+        accepted=True, reason="ok", lease_epoch=3, applied_value=0.0
+    )
+    with pytest.raises(MessageError, match="5 fields, expected 4"):
+        codec.decode(msgspec.msgpack.encode([*whole, 0.0]), Answer)
+
+
 @pytest.mark.parametrize(
     ("array", "sentence"),
     [

@@ -57,6 +57,7 @@ from weaver_shared.messages.telemetry import (
     Presence,
     RobotState,
     SafetyAction,
+    ServoStates,
     Severity,
     TruthState,
 )
@@ -102,6 +103,7 @@ __all__ = [
     "RoutePlan",
     "SafetyAction",
     "SceneState",
+    "ServoStates",
     "Severity",
     "StereoFrame",
     "TeleopFrame",

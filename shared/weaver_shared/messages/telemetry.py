@@ -117,6 +117,15 @@ class RobotState:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ServoStates:
+    """How every servo is, 5 Hz; in the order of `RobotDescription.joint_names`."""
+
+    stamp_ns: int
+    temperature: Array  # (joints,) degrees Celsius; NaN not measured
+    faults: tuple[str, ...]  # of each what is wrong, empty when it is well; none at all from a body that can not tell
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class GaitState:
     stamp_ns: int
     gait: str

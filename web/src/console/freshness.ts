@@ -20,6 +20,7 @@ const LIMITS: readonly (readonly [prefix: string, limits: Limits])[] = [
   ["tele/gait", { stale: 1, lost: 3 }],
   ["tele/adaptation", { stale: 1, lost: 5 }],
   ["tele/power", { stale: 2, lost: 8 }],
+  ["tele/servos", { stale: 2, lost: 8 }],
   ["tele/health", { stale: 3, lost: 8 }],
   ["tele/cam", { stale: 2, lost: 8 }],
   ["tele/map", { stale: Infinity, lost: Infinity }],

@@ -17,6 +17,7 @@ import type {
   ReplayMarks,
   ReplayState,
   RobotState,
+  ServoStates,
   TruthState,
 } from "../protocol/messages";
 import type { ControlRequest, Hello, Legend, LinkReport, LogEntry, RequestState, RobotEntry } from "../protocol/wire";
@@ -27,6 +28,7 @@ export interface Topics {
   "tele/gait": GaitState;
   "tele/adaptation": AdaptationReport;
   "tele/power": PowerState;
+  "tele/servos": ServoStates;
   "tele/locomotion": LocomotionState;
   "state/mode": ModeState;
   "state/motion": MotionOrders;

@@ -126,6 +126,14 @@ export interface RobotState {
   pitch: Maybe;
 }
 
+export interface ServoStates {
+  stamp_ns: number;
+  /** °C; null not measured. */
+  temperature: Maybe[];
+  /** What is wrong with each, "" where it is well; [] from a body that can not tell. */
+  faults: string[];
+}
+
 export interface GaitState {
   stamp_ns: number;
   gait: string;

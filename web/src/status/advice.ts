@@ -1,5 +1,7 @@
 /** What to do about what keeps the robot from moving or makes it less sure (docs/operators_guide.md). Pure. */
 
+import { HOT, WARM } from "../robot/heat";
+
 const WATCH_IT = "Stand clear; look at the robot before anything else.";
 const WIRES = "Let it sit and cut the torque; check cables and power, then run `weaver doctor`.";
 
@@ -11,7 +13,7 @@ const ADVICE: readonly (readonly [RegExp, string])[] = [
   [/tilt/i, "Drive back by hand, slowly."],
   [/is stuck/i, `${WATCH_IT} Free the leg: until then its motor keeps a third of its torque.`],
   [/has stopped: nothing was heard/i, "It goes on softly by itself; if it comes again, the computer is too busy."],
-  [/celsius|°C/i, "Let it rest; it sits down at 75 °C."],
+  [/celsius|°C/i, `Let it rest; it sits down at ${HOT} °C.`],
   [/IMU|attitude/i, `It can not walk without its IMU. ${WIRES}`],
   [/power monitor/i, "Watch the battery yourself; it sits down after 5 s. Check the monitor's cable."],
   [/longer than a tick/i, "Expect it to walk less well until that is set; `weaver doctor` tells where."],
@@ -36,8 +38,6 @@ export interface Findings {
   odometry: string;
 }
 
-/** Servos sit the robot down at 75 °C, so the operator hears of it before. */
-const WARM = 65;
 const LOW_BATTERY = 0.2;
 const SLOW_PACE = 0.9;
 
