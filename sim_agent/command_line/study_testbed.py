@@ -36,10 +36,10 @@ def main(arguments: list[str]) -> int:
         raise InputError(f"--distance {options.distance} m is not on the course; valid are 1 to {WHOLE_COURSE}")
     store = RecordStore(Path(options.out))
     records = _records(options, store)
-    world, mass = make_world("testbed", options.world_seed), load_robot().mass
-    figures = study_figures(records, world, mass)
-    constant = records[-1].plan.parameters or {}
-    written = write_report(store.folder, figures, draw_all(records, world, mass, store.folder), constant)
+    world, robot = make_world("testbed", options.world_seed), load_robot()
+    figures = study_figures(records, world, robot.mass)
+    pictures = draw_all(records, world, robot, store.folder)
+    written = write_report(store.folder, figures, pictures, records, robot.adaptation)
     if options.json:
         print(json.dumps(without_nan(_as_json(figures, records)), allow_nan=False))
         return 0

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from sim_agent.testbed_study.walk import WalkRecord
 from sim_agent.worlds import World
-from weaver_shared.config.adaptation import AdaptationConfig
 from weaver_shared.frames import GRAVITY
+from weaver_shared.robots import RobotDescription
 
 Array = NDArray[np.float64]
 
@@ -27,12 +27,12 @@ PARAMETERS = {"virtual_stiffness": "stiffness", "stride_frequency": "frequency",
 PARAMETER_COLOURS = ("#6a1b9a", "#2e7d32", "#ef6c00")
 
 
-def draw_all(records: list[WalkRecord], world: World, mass: float, folder: Path) -> dict[str, Path]:
+def draw_all(records: list[WalkRecord], world: World, robot: RobotDescription, folder: Path) -> dict[str, Path]:
     """Draw every figure that the finished walks allow; returns PNG files by the figure's number in the paper."""
     finished = [record for record in records if record.outcome == "reached"]
     drawings: dict[str, Callable[[], Figure]] = {
         "9": lambda: _odometry_error(finished, world),
-        "10": lambda: _cost_and_parameters(finished, world, mass),
+        "10": lambda: _cost_and_parameters(finished, world, robot),
         "11": lambda: _sway(finished, world),
     }
     files = {}
@@ -59,7 +59,7 @@ def _odometry_error(records: list[WalkRecord], world: World) -> Figure:
     return figure
 
 
-def _cost_and_parameters(records: list[WalkRecord], world: World, mass: float) -> Figure:
+def _cost_and_parameters(records: list[WalkRecord], world: World, robot: RobotDescription) -> Figure:
     figure = Figure(figsize=(8.0, 5.6), dpi=110, layout="constrained")
     upper, lower = figure.subplots(2, 1, sharex=True)
     places = _places(world)
@@ -67,14 +67,13 @@ def _cost_and_parameters(records: list[WalkRecord], world: World, mass: float) -
         walks = [record for record in records if record.plan.kind == kind]
         if not walks:
             continue
-        costs = np.array([_cost_along(record.rows, places, mass) for record in walks])
+        costs = np.array([_cost_along(record.rows, places, robot.mass) for record in walks])
         mean, spread = _mean_and_spread(costs)
         if kind == "adaptive":
             upper.fill_between(places, mean - spread, mean + spread, color="0.85")
         upper.plot(places, mean, LINES[kind], color=colour, label=f"{kind}, mean of {len(walks)}")
-        config = AdaptationConfig()
         for (name, label), shade in zip(PARAMETERS.items(), PARAMETER_COLOURS, strict=True):
-            bounds = getattr(config, name)
+            bounds = getattr(robot.adaptation, name)
             values = np.array([_along(record.rows["x"], record.rows[name], places) for record in walks])
             share = 100.0 * (_mean_and_spread(values)[0] - bounds.lower) / (bounds.upper - bounds.lower)
             lower.plot(places, share, LINES[kind], color=shade, label=f"{label}, {kind}")

@@ -5,9 +5,12 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
+
 from sim_agent.report_pages import Section, Table, write_pages
 from sim_agent.testbed_study import paper
 from sim_agent.testbed_study.figures import KindFigures, StudyFigures
+from sim_agent.testbed_study.walk import WalkRecord
 from weaver_shared.config.adaptation import AdaptationConfig
 
 CAPTIONS = {
@@ -29,16 +32,20 @@ NOTES = (
 
 
 def write_report(
-    folder: Path, figures: StudyFigures, pictures: dict[str, Path], constant: dict[str, float]
+    folder: Path,
+    figures: StudyFigures,
+    pictures: dict[str, Path],
+    records: list[WalkRecord],
+    adaptation: AdaptationConfig,
 ) -> list[Path]:
-    """Write report.md and report.html into `folder`; `constant` are the parameters of the fixed walks.
+    """Write report.md and report.html into `folder`; `records` are of all walks, within the bounds of `adaptation`.
 
     Raises InputError when that can not be done.
     """
     sections: list[Section] = [
         ("Over the whole course", overall_table(figures)),
         ("By segment (the paper's Table III)", segment_table(figures)),
-        ("Gait parameters (Table II)", parameter_table(AdaptationConfig(), constant)),
+        ("Gait parameters (Table II)", parameter_table(records, adaptation)),
     ]
     captioned = [(path, CAPTIONS[number]) for number, path in pictures.items()]
     return write_pages(folder, "Testbed: adaptive against fixed gait parameters", sections, captioned, NOTES)
@@ -105,17 +112,27 @@ def segment_table(figures: StudyFigures) -> Table:
     return rows
 
 
-def parameter_table(config: AdaptationConfig, constant: dict[str, float]) -> Table:
-    """Ranges of the adaptive set and the fixed values; the paper's own are lost."""
+def parameter_table(records: list[WalkRecord], adaptation: AdaptationConfig) -> Table:
+    """What the adaptive walks took of what they may, and the fixed values; the paper's own are lost."""
     labels = {
         "virtual_stiffness": "virtual stiffness, N/m",
         "stride_frequency": "stride frequency, Hz",
         "stride_height": "stride height, m",
     }
-    rows: Table = [("", "adaptive, from", "to", "fixed")]
+    adaptive = [record.rows for record in records if record.plan.kind == "adaptive"]
+    constant = next((record.plan.parameters or {} for record in records if record.plan.kind == "fixed"), {})
+    rows: Table = [("", "bounds", "adaptive", "fixed")]
     for name, label in labels.items():
-        bounds = getattr(config, name)
-        rows.append((label, f"{bounds.lower:g}", f"{bounds.upper:g}", f"{constant[name]:g}"))
+        bounds = getattr(adaptation, name)
+        taken = [float(of(rows[name])) for of in (np.min, np.max) for rows in adaptive if len(rows[name])]
+        rows.append(
+            (
+                label,
+                f"{bounds.lower:g} to {bounds.upper:g}",
+                f"{min(taken):.3g} to {max(taken):.3g}" if taken else "–",
+                f"{constant[name]:g}" if name in constant else "–",
+            )
+        )
     return rows
 
 

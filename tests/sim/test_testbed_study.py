@@ -12,12 +12,14 @@ from sim_agent.testbed_study import cluster
 from sim_agent.testbed_study.figures import study_figures
 from sim_agent.testbed_study.fixed_set import fixed_set
 from sim_agent.testbed_study.plan import adaptive_walks, fixed_walks
+from sim_agent.testbed_study.report import parameter_table
 from sim_agent.testbed_study.store import RecordStore
 from sim_agent.testbed_study.walk import COLUMNS, WalkRecord
 from sim_agent.worlds import make_world
 from weaver_shared.config.adaptation import AdaptationConfig
 from weaver_shared.errors import InputError
 from weaver_shared.frames import GRAVITY
+from weaver_shared.robots import load_robot
 
 MASS = 10.3
 SPEED = {"adaptive": 0.2, "fixed": 0.1}
@@ -73,6 +75,15 @@ def test_the_fixed_set_is_the_adaptive_one_where_known_ground_is_roughest():
     assert found["stride_height"] == pytest.approx(0.1, abs=0.002)
     unfinished = replace(made_up_walk(walk), outcome="stuck")
     assert fixed_set(unfinished, AdaptationConfig()) == safe_gait(AdaptationConfig())
+
+
+def test_the_table_of_parameters_tells_what_was_taken_of_what_was_allowed():
+    adaptation = load_robot().adaptation
+    records = [made_up_walk(walk) for walk in plan(1, 1, 1, 8.4)]
+    heading, *rows = parameter_table(records, adaptation)
+    assert heading == ("", "bounds", "adaptive", "fixed")
+    bounds = adaptation.stride_frequency
+    assert rows[1] == ("stride frequency, Hz", f"{bounds.lower:g} to {bounds.upper:g}", "0.3 to 1", "0.35")
 
 
 def test_without_a_finished_walk_figures_are_unknown_not_wrong():
