@@ -15,15 +15,17 @@ from math import isfinite
 import numpy as np
 
 from robot_agent.adaptation import ParameterOverrides
+from robot_agent.area_keeper import AreaKeeper
 from robot_agent.authority import Authority
 from robot_agent.cruise import Cruise
 from robot_agent.foothold_desk import FootholdDesk
-from robot_agent.forbidden_areas import Area, areas_of
+from robot_agent.forbidden_areas import areas_of
 from robot_agent.ground_memory import GroundMemory
 from robot_agent.leg_desk import LegDesk
 from robot_agent.locomotion.leg_reach import LegReach
 from robot_agent.mission import Mission
 from robot_agent.motion_desk import MotionDesk
+from robot_agent.navigation.keep_out import Area, hit
 from robot_agent.orders import Orders
 from robot_agent.way_survey import NOTHING_ASKED, Survey, WaySurvey
 from weaver_shared.config.command import CommandLimits
@@ -79,6 +81,7 @@ class CommandDesk:
         self.ground = GroundMemory()  # to be filled with the map's tiles
         self._surveyor = WaySurvey(robot, self.ground)
         self._areas: tuple[Area, ...] = ()
+        self._keeper = AreaKeeper(robot)
         self._survey = NOTHING_ASKED  # of the command being answered
         self._motion = MotionDesk(robot)
         self._cruise = Cruise(self._limits)
@@ -185,7 +188,7 @@ class CommandDesk:
             if not isfinite(silence):
                 self._mission.pause()
                 self._cruise.stop()
-            steered = self._teleop_velocity(now)
+            steered = self._steered(now)
             return Orders(
                 stop_level=self._stop_level,
                 stand=self._stand,
@@ -195,15 +198,28 @@ class CommandDesk:
                 mission_active=self._mission.phase == "active",
                 waypoints=self._mission.walked,
                 mission_serial=self._mission.serial,
-                teleop_velocity=steered if steered is not None else self._cruise.velocity(self._situation.stamp_ns),
+                teleop_velocity=steered,
                 posing=self._motion.posing,
                 legs=self._legs.orders,
                 footholds=self._footholds.orders(self._situation.stamp_ns),
                 in_sequence=self._motion.in_sequence,
                 pack=self._motion.pack,
                 posture=self._motion.posture,
+                areas=self._areas,
                 find_way=self._mission.find_way,
             )
+
+    def _steered(self, now_ns: int) -> np.ndarray | None:
+        """What stick or cruise ask for, (3,), as far as no forbidden area lies in the way."""
+        by_hand = self._teleop_velocity(now_ns)
+        asked = by_hand if by_hand is not None else self._cruise.velocity(self._situation.stamp_ns)
+        kept = self._keeper.keep_out(self._areas, asked, self._situation.robot_xy, self._situation.world_from_body)
+        if kept.news:
+            self.note(Severity.WARNING, kept.news)
+        if kept.halted and by_hand is None:
+            self._cruise.stop()
+            return None
+        return kept.velocity
 
     def mission_progress(
         self,
@@ -398,7 +414,12 @@ class CommandDesk:
         return self._refuse(refusal) if refusal else self._accept(float(len(command.waypoints)))
 
     def _start_mission(self, _: Command) -> Answer:
-        refusal = self._walk_refusal() or self._survey.refusal or self._mission.start(self._situation.robot_xy)
+        refusal = (
+            self._walk_refusal()
+            or self._survey.refusal
+            or self._forbidden_goal()
+            or self._mission.start(self._situation.robot_xy)
+        )
         if refusal:
             return self._refuse(refusal)
         self._cruise.stop()
@@ -428,11 +449,23 @@ class CommandDesk:
             self._areas = areas_of(command)
         except InputError as error:
             return self._refuse(str(error))
-        if self._mission.phase == "active" and self._survey.refusal:
-            self.give_up_mission(self._survey.refusal)
-            reason = f"the mission is paused: {self._survey.refusal}"
+        refusal = self._survey.refusal or self._forbidden_goal()
+        if self._mission.phase == "active" and refusal:
+            self.give_up_mission(refusal)
+            reason = f"the mission is paused: {refusal}"
             return replace(self._accept(float(len(self._areas))), reason=reason)
         return self._accept(float(len(self._areas)))
+
+    def _forbidden_goal(self) -> str:
+        """Why a mission that finds its own ways can not come to a goal of its; their ways themselves lead around."""
+        if not self._mission.find_way:
+            return ""
+        total, ahead = len(self._mission.waypoints), self._mission.ahead
+        for number, goal in enumerate(ahead, start=total - len(ahead) + 1):
+            place = (goal.x, goal.y)
+            if (area := hit(self._areas, place, place, self._robot.half_width)) is not None:
+                return f"waypoint {number} is in forbidden area {area}, or too near for the feet"
+        return ""
 
     def _look_at_the_way(self, command: Command) -> Survey:
         """Before the desk is locked: the walk loop does not wait for a long way to be looked at."""
@@ -519,7 +552,16 @@ class CommandDesk:
             raise InputError("a mission is being walked; pause it first")
         if self._legs.orders:
             raise InputError("legs are lifted; lower them before walking")
-        return self._cruise.start(command, self._teleop_velocity(self._now_ns()), self._situation.stamp_ns)
+        applied = self._cruise.start(command, self._teleop_velocity(self._now_ns()), self._situation.stamp_ns)
+        if refusal := self._keeper.refusal(
+            self._areas,
+            self._cruise.velocity(self._situation.stamp_ns),
+            self._situation.robot_xy,
+            self._situation.world_from_body,
+        ):
+            self._cruise.stop()
+            raise InputError(refusal)
+        return applied
 
     def _change_posture(self, command: Command) -> float:
         if self._situation.mode != "STAND":

@@ -16,6 +16,7 @@ from robot_agent.cover_watch import CoverWatch
 from robot_agent.felt_queue import Felt, FeltQueue
 from robot_agent.headway import Headway
 from robot_agent.mapping import TerrainMap
+from robot_agent.navigation import Area
 from robot_agent.perception import CloseLook
 from robot_agent.pipeline import VisionPipeline, VisionTick, WalkPipeline, WalkTick
 from robot_agent.telemetry import Telemetry
@@ -26,6 +27,7 @@ from weaver_shared.latest import LatestSlot
 from weaver_shared.messages import (
     AdaptationReport,
     Event,
+    ForbiddenAreas,
     Health,
     NavigationGoal,
     OdometryEstimate,
@@ -204,7 +206,10 @@ class VisionLoop:
         self._meter = LoopMeter("vision", robot.camera.rate)
         self._cover = CoverWatch()
         self._goal: LatestSlot[NavigationGoal] = LatestSlot()
+        self._areas: LatestSlot[ForbiddenAreas] = LatestSlot()
+        self._forbidden: tuple[Area, ...] = ()
         bus.subscribe(robot_id, topics.GOAL, lambda _id, _key, message: self._goal.put(message))
+        bus.subscribe(robot_id, topics.AREAS, lambda _id, _key, message: self._areas.put(message))
         self._frames = 0
 
     def feel(self, sensed: Proprioception) -> None:
@@ -265,6 +270,10 @@ class VisionLoop:
         # Between pictures, so that a search on another thread sees one goal from beginning to end.
         if self._pipeline is not None and (goal := self._goal.take()) is not None:
             self._pipeline.seek(goal)
+        if (areas := self._areas.take()) is not None:
+            self._forbidden = areas.areas
+        if self._pipeline is not None:
+            self._pipeline.keep_out(self._forbidden)
         self._frames += 1
         if self._frames % 10 == 0:
             self._publish_health(tick.odometry)

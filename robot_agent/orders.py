@@ -11,6 +11,7 @@ from robot_agent.locomotion.footholds import FootholdOrder
 from robot_agent.locomotion.leg_order import LegOrder
 from robot_agent.locomotion.posing.order import NO_POSING, PosingOrder
 from robot_agent.locomotion.posture_order import NO_POSTURE_ORDER, PostureOrder
+from robot_agent.navigation.keep_out import Area
 from weaver_shared.messages import Waypoint
 
 
@@ -24,13 +25,14 @@ class Orders:
     mission_active: bool
     waypoints: tuple[Waypoint, ...]
     mission_serial: int  # rises when the follower must begin anew
-    teleop_velocity: NDArray[np.float64] | None  # (3,) fractions -1..1 of the limits; None: nobody steers
+    teleop_velocity: NDArray[np.float64] | None  # (3,) m/s and rad/s; None: nobody steers
     posing: PosingOrder = NO_POSING
     legs: tuple[LegOrder, ...] = ()  # in the operator's hands
     footholds: tuple[FootholdOrder, ...] = ()  # where the next swings of single legs are to end
     in_sequence: bool = False  # stand up and sit down with legs in alternating groups
     pack: bool = False  # fold the legs away when sitting
     posture: PostureOrder = NO_POSTURE_ORDER  # of the legs
+    areas: tuple[Area, ...] = ()  # forbidden ground, to be walked around
     find_way: bool = False  # the waypoints are goals to which the robot finds its own way
 
 

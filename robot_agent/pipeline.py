@@ -20,7 +20,7 @@ from robot_agent.locomotion.footholds import orders_in_body
 from robot_agent.locomotion.leg_reach import LegReach
 from robot_agent.mapping import FirmFeet, TerrainMap
 from robot_agent.modes import ModeMachine, Permission
-from robot_agent.navigation import FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
+from robot_agent.navigation import Area, FollowerOutput, PathFollower, RouteFollower, RoutePlanner, RouteTick
 from robot_agent.odometry import NavigationState, OwnLegs, StatePropagator, StereoInertialOdometry
 from robot_agent.orders import Orders
 from robot_agent.perception import BodySense, CloseLook, FeltGround, Roughness, TerrainPerception
@@ -84,6 +84,7 @@ class VisionPipeline:
         self._adaptation = AdaptationController(robot.adaptation)
         self._planner = RoutePlanner(robot)
         self._goal: NavigationGoal | None = None
+        self._areas: tuple[Area, ...] = ()
         self._perceive_every = perceive_every
         self._frames = 0
         self._adapted_ns: int | None = None
@@ -95,6 +96,10 @@ class VisionPipeline:
     def seek(self, goal: NavigationGoal | None) -> None:
         """Look for a way to this place from now on, or for none."""
         self._goal = goal if goal is not None and goal.active else None
+
+    def keep_out(self, areas: tuple[Area, ...]) -> None:
+        """Find no way into these from now on."""
+        self._areas = areas
 
     def step(self, frame: StereoFrame, imu: ImuBatch, legs: LegBatch, *, closely: bool = False) -> VisionTick:
         """One stereo pair with all IMU samples and readings of the legs since the previous one.
@@ -156,7 +161,7 @@ class VisionPipeline:
         x, y, _ = odometry.position_in_world
         if not np.isfinite([x, y]).all():
             return None
-        return self._planner.step(self._goal, self._map.grid, float(x), float(y), odometry.stamp_ns)
+        return self._planner.step(self._goal, self._map.grid, float(x), float(y), odometry.stamp_ns, self._areas)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -187,7 +192,7 @@ class WalkPipeline:
         self._overrides = overrides
         self._fallback = AdaptationController(robot.adaptation)
         self._follower = PathFollower()
-        self._route_follower = RouteFollower()
+        self._route_follower = RouteFollower(half_width=robot.half_width)
         self._route: RoutePlan | None = None
         self._walker = Postures(robot, dt=dt)
         self._safety = SafetySupervisor()
@@ -305,7 +310,12 @@ class WalkPipeline:
             return np.zeros(3), None, None
         if orders.find_way:
             route = self._route_follower.step(
-                state.world_from_body, orders.waypoints, orders.mission_serial, self._route, state.stamp_ns
+                state.world_from_body,
+                orders.waypoints,
+                orders.mission_serial,
+                self._route,
+                state.stamp_ns,
+                orders.areas,
             )
             return route.follower.velocity, replace(route.follower, index=route.follower.index + 1), route
         if orders.mission_serial != self._path_serial or self._path[1:] != orders.waypoints:

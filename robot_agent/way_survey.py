@@ -9,8 +9,8 @@ from math import atan, degrees, hypot, tan
 import numpy as np
 from numpy.typing import NDArray
 
-from robot_agent.forbidden_areas import Area, hit
 from robot_agent.ground_memory import GroundMemory
+from robot_agent.navigation.keep_out import Area, hit
 from weaver_shared.config.navigation import RouteConfig
 from weaver_shared.config.safety import SafetyLimits
 from weaver_shared.messages import Waypoint

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.navigation.clearance import add_clearance
 from robot_agent.navigation.grid_search import cheapest_path, line_cost, straighten
 from robot_agent.navigation.ground_costs import GroundCosts, GroundMap
+from robot_agent.navigation.keep_out import Area, depths
 from weaver_shared.config.navigation import RouteConfig
 from weaver_shared.messages import NavigationGoal, RoutePlan, Waypoint
 from weaver_shared.robots import RobotDescription
 
 Array = NDArray[np.float64]
+Cell = tuple[int, int]
+
+TIGHT = 20.0
+"""What a cell costs more in which the robot can only be because it stands there."""
 
 
 class RoutePlanner:
@@ -24,11 +31,14 @@ class RoutePlanner:
         self._radius = float(np.hypot(*feet.T).max()) + robot.foot_radius + config.clearance
         self._goal: NavigationGoal | None = None
         self._costs: GroundCosts | None = None
+        self._measured: tuple[tuple[Area, ...], GroundCosts, list[Array]] | None = None
         self._route: tuple[Waypoint, ...] = ()
         self._revision = 0
 
-    def step(self, goal: NavigationGoal, ground: GroundMap, x: float, y: float, stamp_ns: int) -> RoutePlan:
-        """The route from world (x, y) m to the goal over the ground as it is known now."""
+    def step(
+        self, goal: NavigationGoal, ground: GroundMap, x: float, y: float, stamp_ns: int, areas: Sequence[Area] = ()
+    ) -> RoutePlan:
+        """The route from world (x, y) m to the goal over the ground as it is known now, around forbidden `areas`."""
         if self._costs is None or self._goal is None or (goal.serial, goal.place) != (
             self._goal.serial, self._goal.place
         ):  # fmt: skip
@@ -44,16 +54,52 @@ class RoutePlanner:
         if not _holds(cost, start):
             return self._nothing(stamp_ns, "the robot has left the area in which a way was looked for")
         _open_around(costs, barred, cost, start, self._radius)
+        if forbidden := self._bar(areas, cost, barred, start, end):
+            return self._nothing(
+                stamp_ns, f"the goal is nearer than {self._radius:.2f} m to forbidden area {forbidden}"
+            )
         if barred[end]:
             return self._nothing(stamp_ns, f"the goal is nearer than {self._radius:.2f} m to an obstacle")
         parent = np.empty(cost.size, dtype=np.int64)
         columns = cost.shape[1]
         found = cheapest_path(cost, barred, start[0] * columns + start[1], end[0] * columns + end[1], parent)
         if not np.isfinite(found):
-            return self._nothing(stamp_ns, "obstacles close every way to the goal")
+            closing = "obstacles and forbidden areas close" if areas else "obstacles close"
+            return self._nothing(stamp_ns, f"{closing} every way to the goal")
         if not self._still_good(cost, barred, (x, y), found):
             self._take(_cells(parent, end[0] * columns + end[1], columns), cost, barred)
         return self._plan(stamp_ns, x, y)
+
+    def _bar(
+        self,
+        areas: Sequence[Area],
+        cost: Array,
+        barred: NDArray[np.bool_],
+        start: tuple[int, int],
+        end: tuple[int, int],
+    ) -> int:
+        """Bar what the feet's circle would share with an area; the number of one that holds the goal, 0 for none.
+
+        A robot that stands in one may go where it comes no deeper, at a price: so it leaves by the shortest way.
+        """
+        for number, depth in enumerate(self._depths(areas), start=1):
+            if depth[end] < self._radius:
+                return number
+            closed = min(self._radius, float(depth[start]) - 1e-6)
+            barred |= depth < closed
+            cost[depth < self._radius] += TIGHT
+        return 0
+
+    def _depths(self, areas: Sequence[Area]) -> list[Array]:
+        """Distances (rows, columns) of the cells' middles from each area; worked out when areas or cells change."""
+        assert self._costs is not None
+        if self._measured is None or self._measured[:2] != (tuple(areas), self._costs):
+            costs = self._costs
+            rows, columns = np.indices(costs.cost.shape)
+            middles = np.stack([rows + costs.row0 + 0.5, columns + costs.column0 + 0.5], axis=-1) * costs.cell
+            found = [depths(area, middles.reshape(-1, 2)).reshape(rows.shape) for area in areas]
+            self._measured = (tuple(areas), costs, found)
+        return self._measured[2]
 
     def _still_good(self, cost: Array, barred: NDArray[np.bool_], here: tuple[float, float], found: float) -> bool:
         """Whether what is left of the present route costs hardly more than the best there is."""
@@ -135,7 +181,7 @@ def _open_around(
     rows = slice(max(start[0] - reach, 0), start[0] + reach + 1)
     columns = slice(max(start[1] - reach, 0), start[1] + reach + 1)
     tight = barred[rows, columns] & ~costs.blocked[rows, columns]
-    cost[rows, columns][tight] += 20.0
+    cost[rows, columns][tight] += TIGHT
     barred[rows, columns] &= costs.blocked[rows, columns]
     barred[start] = False
 

@@ -139,6 +139,41 @@ def test_a_route_is_kept_while_it_is_hardly_worse_than_the_best():
     assert len(revisions) == 1
 
 
+FORBIDDEN = tuple(Waypoint(x=x, y=y) for x, y in ((1.2, -0.8), (1.4, -0.8), (1.4, 2.0), (1.2, 2.0)))
+
+
+def test_a_forbidden_area_is_gone_around_like_a_wall():
+    plan = RoutePlanner(ROBOT).step(goal(2.6, 0.0), Map(), 0.0, 0.0, 0, [FORBIDDEN])
+    assert plan.found
+    assert distance_to_box(points(plan), (1.2, 1.4), (-0.8, 2.0)) >= RADIUS - 0.02
+    assert plan.length < 4.6
+
+
+def test_an_area_forbidden_under_way_changes_the_route_and_one_taken_back_does_too():
+    planner, target = RoutePlanner(ROBOT), goal(2.6, 0.0)
+    assert planner.step(target, Map(), 0.0, 0.0, 0).waypoints == (target.place,)
+    assert len(planner.step(target, Map(), 0.1, 0.0, 1, [FORBIDDEN]).waypoints) > 1
+    assert planner.step(target, Map(), 0.1, 0.0, 2, []).waypoints == (target.place,)
+
+
+def test_a_goal_in_a_forbidden_area_and_a_closed_way_are_told():
+    plan = RoutePlanner(ROBOT).step(goal(1.3, 0.5), Map(), 0.0, 0.0, 0, [FORBIDDEN])
+    assert (plan.found, "to forbidden area 1" in plan.reason) == (False, True)
+    across = tuple(Waypoint(x=x, y=y) for x, y in ((1.2, -9.0), (1.4, -9.0), (1.4, 9.0), (1.2, 9.0)))
+    plan = RoutePlanner(ROBOT).step(goal(2.6, 0.0), Map(), 0.0, 0.0, 0, [across])
+    assert plan.reason == "obstacles and forbidden areas close every way to the goal"
+
+
+def test_from_within_an_area_the_way_leads_out_by_the_nearest_edge():
+    wide = tuple(Waypoint(x=x, y=y) for x, y in ((-0.3, -2.0), (1.5, -2.0), (1.5, 2.0), (-0.3, 2.0)))
+    plan = RoutePlanner(ROBOT).step(goal(3.0, 0.0), Map(), 0.0, 0.0, 0, [wide])
+    assert plan.found
+    path = points(plan)
+    assert path[:, 0].min() < -0.3  # back over the near edge, and then around
+    inside = (path[:, 0] > -0.25) & (path[:, 0] < 1.5) & (np.abs(path[:, 1]) < 2.0)
+    assert not inside[np.argmin(path[:, 0]) :].any()
+
+
 def dijkstra(cost, barred, start, end):
     rows, columns = cost.shape
     best, queue = {start: 0.0}, [(0.0, start)]
@@ -295,3 +330,14 @@ def test_goals_are_visited_one_after_the_other():
     assert tick.goal.place == goals[1]  # the first is near enough
     assert tick.follower.index == 1
     assert replace(route(), serial=1).goal == tick.goal.place
+
+
+def test_a_route_into_a_forbidden_area_is_not_followed_and_one_around_it_is():
+    follower, areas = RouteFollower(half_width=ROBOT.half_width), (FORBIDDEN,)
+    assert follower.step(HERE, GOALS, 1, route(), 0).follower.velocity.any()
+    tick = follower.step(HERE, GOALS, 1, route(), 1, areas)  # forbidden under way
+    assert not tick.follower.velocity.any()
+    assert tick.waiting == "no way: the one that was found leads into forbidden area 1"
+    around = route(2, places=((1.0, -1.4), (1.6, -1.4), (2.0, 0.0)))
+    assert follower.step(HERE, GOALS, 1, around, 2, areas).follower.velocity.any()
+    assert follower.step(HERE, GOALS, 1, route(2), 3).follower.velocity.any()  # taken back

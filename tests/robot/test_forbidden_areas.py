@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from robot_agent.adaptation import ParameterOverrides
 from robot_agent.commands import CommandDesk, Situation
-from robot_agent.forbidden_areas import hit
+from robot_agent.navigation.keep_out import hit
 from weaver_shared.clock import SimulatedClock
-from weaver_shared.messages import Answer, Command, CommandName, Waypoint
+from weaver_shared.messages import Answer, Command, CommandName, TeleopFrame, Waypoint
 from weaver_shared.robots import load_robot
+from weaver_shared.transforms import Pose
 
 SQUARE = ((2.0, -0.5), (3.0, -0.5), (3.0, 0.5), (2.0, 0.5))
 HALF_WIDTH = 0.3
@@ -131,3 +133,103 @@ def test_what_is_no_area_is_refused(name: str, corners: int) -> None:
 def test_corners_are_finite() -> None:
     corners = area((0, 0), (1, float("nan")), (1, 1))
     assert "finite" in Operator().forbids(corners).reason
+
+
+class Driver(Operator):
+    """Steers a robot that goes where the desk lets it, at 100 Hz of simulated time, heading along x."""
+
+    def __init__(self) -> None:
+        self.clock = SimulatedClock(1_000_000_000)
+        self.desk = CommandDesk(robot=load_robot(), overrides=ParameterOverrides(), wall_clock_ns=self.clock.now_ns)
+        self.epoch = self.sequence = 0
+        self.place = np.zeros(2)
+        self.stand()
+        self.epoch = self.says(CommandName.TAKE_CONTROL).lease_epoch
+
+    def stand(self) -> None:
+        x, y = self.place.tolist()
+        pose = Pose(rotation=np.eye(3), position=np.array([x, y, 0.2]))
+        self.desk.observe(
+            Situation(
+                stamp_ns=self.clock.now_ns(), robot_xy=(x, y), mode="STAND", settled=False, stand_blockers=(),
+                world_from_body=pose,
+            )
+        )  # fmt: skip
+
+    def go(self, seconds: float, stick: tuple[float, float, float] | None = None) -> float:
+        """Returns how far the robot has gone along x; without a stick only a cruise moves it."""
+        begin = float(self.place[0])
+        for tick in range(round(100 * seconds)):
+            if tick % 5 == 0:
+                self.says(CommandName.RETAIN_CONTROL)
+                self.sequence += 1
+                if stick is not None:
+                    forward, left, turn = stick
+                    self.desk.teleoperate(
+                        TeleopFrame(
+                            operator="ada", lease_epoch=self.epoch, sequence=self.sequence, dead_man=True,
+                            forward=forward, left=left, turn=turn,
+                        )
+                    )  # fmt: skip
+            velocity = self.desk.orders().teleop_velocity
+            if velocity is not None:
+                self.place = self.place + 0.01 * velocity[:2]
+            self.clock.forward(seconds=0.01)
+            self.stand()
+        return float(self.place[0]) - begin
+
+    @property
+    def warnings(self) -> list[str]:
+        return [event.text for event in self.desk.take_events() if "the robot stops before" in event.text]
+
+
+CIRCLE = float(np.hypot(*load_robot().stance_in_body[:, :2].T).max()) + load_robot().foot_radius
+
+
+def test_a_robot_driven_by_hand_stops_before_an_area_says_why_once_and_drives_away() -> None:
+    ada = Driver()
+    ada.forbids(area(*SQUARE))
+    ada.go(20.0, (1.0, 0.0, 0.0))
+    assert 2.0 - CIRCLE - 0.15 < ada.place[0] < 2.0 - CIRCLE
+    assert ada.go(2.0, (1.0, 0.0, 0.0)) == 0.0
+    assert len(ada.warnings) == 1
+    assert ada.go(2.0, (-1.0, 0.0, 0.0)) == pytest.approx(-0.5, abs=0.05)
+    ada.go(20.0, (1.0, 0.0, 0.0))
+    assert "forbidden area 1" in ada.warnings[0]  # again, as it is a new attempt
+    assert ada.forbids().accepted
+    assert ada.go(4.0, (1.0, 0.0, 0.0)) > 0.9
+
+
+def test_a_robot_that_stands_in_an_area_is_driven_out_of_it_but_no_deeper() -> None:
+    ada = Driver()
+    ada.place = np.array([2.2, 0.0])
+    ada.stand()
+    ada.forbids(area(*SQUARE))
+    assert ada.go(2.0, (1.0, 0.0, 0.0)) == 0.0
+    assert ada.go(6.0, (-1.0, 0.0, 0.0)) == pytest.approx(-1.5, abs=0.05)
+
+
+def test_a_cruise_ends_before_an_area_and_does_not_begin_right_before_it() -> None:
+    ada = Driver()
+    ada.forbids(area(*SQUARE))
+    assert ada.says(CommandName.START_CRUISE, name="forward", value=0.2, seconds=60.0).accepted
+    ada.go(30.0)
+    assert 2.0 - CIRCLE - 0.15 < ada.place[0] < 2.0 - CIRCLE
+    assert ada.desk.motion().cruise_seconds_left == 0.0
+    assert len(ada.warnings) == 1
+    refused = ada.says(CommandName.START_CRUISE, name="forward", value=0.2, seconds=60.0)
+    assert "forbidden area 1" in refused.reason
+    assert ada.desk.orders().teleop_velocity is None
+    assert ada.says(CommandName.START_CRUISE, name="forward", value=-0.2, seconds=5.0).accepted
+
+
+def test_goals_in_an_area_are_refused_where_the_robot_finds_its_own_way() -> None:
+    ada = Operator()
+    ada.forbids(area(*SQUARE))
+    ada.says(CommandName.SET_MISSION, name="auto", waypoints=area((1.0, 0.0), (2.2, 0.3)))
+    assert "waypoint 2 is in forbidden area 1" in ada.says(CommandName.START_MISSION).reason
+    ada.says(CommandName.SET_MISSION, name="auto", waypoints=area((4.0, 0.0)))
+    assert ada.says(CommandName.START_MISSION).accepted
+    assert ada.desk.orders().areas == (area(*SQUARE),)
+    answer = ada.forbids(area((3.8, -0.2), (4.2, -0.2), (4.2, 0.2)))
+    assert "the mission is paused: waypoint 1 is in forbidden area 1" in answer.reason

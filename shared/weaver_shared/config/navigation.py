@@ -24,6 +24,17 @@ class PathFollowerConfig(BaseModel):
     slowest: Positive = 0.03  # m/s, of the last steps
 
 
+class FenceConfig(BaseModel):
+    """How a steered robot is slowed before a forbidden area. Lengths in m, speeds in m/s."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    stop_short: Positive = 0.05  # between the feet's circle and the area: about half a stride
+    approach: Positive = 0.8  # 1/s, speed towards the area for the distance left
+    slowest: Positive = 0.02  # below it the robot stands
+    along: Positive = 0.17  # of a motion beside an area that may lead nearer, 10 degrees: hands are not exact
+
+
 class RouteConfig(BaseModel):
     """How a way is looked for on the terrain map. Lengths in m; weights are added to the cost 1 of plain ground."""
 
