@@ -112,6 +112,8 @@ class HardwareBody:
         if now_ns >= self._retry_ns:
             self._retry(now_ns)
         self._switched += 1
+        # Before the buses are asked: what has come is the later stamped the later it is taken.
+        self._samples = self._imu.take(now_ns) if self._imu is not None else ImuBatch.empty()
         self.exchange.read()
         self._pace.add(
             self.exchange.taken,
@@ -119,7 +121,6 @@ class HardwareBody:
             late=any(bus.late for bus in self._buses),
         )
         self._judge(now_ns)
-        self._samples = self._imu.take(self._clock.now_ns()) if self._imu is not None else ImuBatch.empty()
         if self._power is not None and (reading := self._power.take(self._clock.now_ns())) is not None:
             self._battery = reading
         self._feel()

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from robot_agent.hardware.emulated_clock import EmulatedClock
 from robot_agent.hardware.hardware_body import HardwareBody
+from robot_agent.hardware.imu import gx3, mip
+from robot_agent.hardware.imu.punctual import PunctualImu
 from robot_agent.hardware.imu.stream import MicroStrainImu, gx3_imu, gx5_imu
 from robot_agent.hardware.power_monitor import BAUD, PowerMonitor
 from robot_agent.hardware.serial_line import SerialLine
@@ -16,6 +18,7 @@ from robot_agent.hardware.wiring import Wiring
 from weaver_shared.config.hardware import ImuLine, PowerLine, ServoBus
 
 EMULATED = "EMULATED BUS"
+BITS_PER_BYTE = 10  # on a serial line, with start and stop
 
 
 def open_robot(wiring: Wiring) -> HardwareBody:
@@ -25,13 +28,13 @@ def open_robot(wiring: Wiring) -> HardwareBody:
     """
     config = wiring.config
     with ExitStack() as opened:
-        imu = open_imu(config.imu, wiring.robot.imu.rate) if config.imu else None
+        clock: LineClock = EmulatedClock(Path(config.emulated.clock)) if config.emulated else MonotonicLineClock()
+        imu = open_punctual_imu(config.imu, wiring.robot.imu.rate, clock) if config.imu else None
         power = open_power(config.power) if config.power else None
         for source in (imu, power):
             if source is not None:
                 opened.callback(source.close)
-        clock = EmulatedClock(Path(config.emulated.clock)) if config.emulated else None
-        body = open_body(wiring, kind=EMULATED if clock else "REAL", imu=imu, power=power, clock=clock)
+        body = open_body(wiring, kind=EMULATED if config.emulated else "REAL", imu=imu, power=power, clock=clock)
         opened.callback(body.close)
         body.prepare()
         opened.pop_all()
@@ -67,10 +70,21 @@ def open_port(wiring: Wiring, bus: ServoBus) -> SerialPort:
 
 def open_imu(line: ImuLine, rate: float) -> MicroStrainImu:
     """The IMU on a serial line, sending `rate` Hz. Raises ResourceError where the port is taken or missing."""
-    make = {"gx3": gx3_imu, "gx5": gx5_imu}[line.kind]
-    return make(SerialLine(line.port, line.baud), round(rate))
+    return _imu_on(SerialLine(line.port, line.baud), line, rate)
+
+
+def open_punctual_imu(line: ImuLine, rate: float, clock: LineClock) -> PunctualImu:
+    """The same, heard by a thread of its own on this clock."""
+    opened = SerialLine(line.port, line.baud)
+    return PunctualImu(_imu_on(opened, line, rate), opened, clock.now_ns)
 
 
 def open_power(line: PowerLine) -> PowerMonitor:
     """The power monitor. Raises ResourceError where the port is taken or missing."""
     return PowerMonitor(SerialLine(line.port, BAUD))
+
+
+def _imu_on(opened: SerialLine, line: ImuLine, rate: float) -> MicroStrainImu:
+    make, record = {"gx3": (gx3_imu, gx3.LENGTH), "gx5": (gx5_imu, mip.LENGTH)}[line.kind]
+    on_wire = record * BITS_PER_BYTE / line.baud
+    return make(opened, round(rate), delay=on_wire if line.delay is None else line.delay)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import select
 import termios
+import time
 from typing import Any, Protocol
 
 import serial
@@ -57,6 +59,17 @@ class SerialLine:
         except _GONE:
             self.close()
             return b""
+
+    def wait(self, timeout: float) -> None:
+        """Until something has come, or `timeout` s are over."""
+        device = self._serial
+        try:
+            if device is not None:
+                select.select([device.fileno()], [], [], timeout)
+                return
+        except (*_GONE, ValueError, TypeError):
+            pass  # closed meanwhile: what follows is no hurry
+        time.sleep(timeout)
 
     def send(self, data: bytes) -> bool:
         if self._serial is None:

@@ -3,7 +3,7 @@
 # ruff: noqa: N802 - the names are the SDK's
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from robot_agent.hardware.serial_line import SerialLine
 from robot_agent.hardware.servos.port import SerialPort
@@ -51,12 +51,17 @@ class SteppedPort(WaitingPort, SerialPort):
 
 
 class SteppedLine(SerialLine):
-    """A device that talks by itself behind a terminal: `put` is its end."""
+    """A device that talks by itself behind a terminal: `put` is its end. `go_on` lets it live up to a time."""
 
-    def __init__(self, device: Device, terminal: SteppedTerminal, baud: int) -> None:
+    def __init__(self, device: Device, terminal: SteppedTerminal, baud: int, go_on: Callable[[int], None]) -> None:
         self._device = device
         self._terminal = terminal
+        self._go_on = go_on
         super().__init__(str(terminal.link), baud)
+
+    def receive(self, now_ns: int) -> bytes:
+        self._go_on(now_ns)
+        return super().receive(now_ns)
 
     def put(self, data: bytes) -> None:
         if data:

@@ -46,8 +46,12 @@ class TwinBody:
         sys.setswitchinterval(SWITCH_INTERVAL)
         folder = Path(self._terminals.enter_context(tempfile.TemporaryDirectory(prefix="weaver-twin-")))
         wiring = Wiring(twin_wiring(robot, folder), robot)
+
+        def go_on(now_ns: int) -> None:
+            servos.joints.advance(now_ns)
+
         sensors = TwinSensors(
-            EmulatedGx5(), lambda name, device: SteppedLine(device, self._terminal(folder / name), BAUD)
+            EmulatedGx5(), lambda name, device: SteppedLine(device, self._terminal(folder / name), BAUD, go_on)
         )
         servos = TwinServos(
             wiring, lambda servos: BodyJoints(servos, self._simulated, wiring, heard=sensors.hear), seed=seed

@@ -42,7 +42,7 @@ def twin_wiring(
         buses=tuple(ServoBus(name=side, port=str(folder / side), baud=baud) for side in ("right", "left")),
         joints=tuple(joints),
         servos=settings or ServoSettings(),
-        imu=ImuLine(kind="gx5", port=str(folder / "imu")) if clock is not None else None,
+        imu=ImuLine(kind="gx5", port=str(folder / "imu"), delay=0.0) if clock is not None else None,
         power=PowerLine(port=str(folder / "power")) if clock is not None else None,
         emulated=EmulatedRobot(clock=str(clock)) if clock is not None else None,
     )

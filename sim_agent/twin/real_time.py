@@ -17,6 +17,7 @@ from sim_agent.servo_bus.twin import TwinServos
 from sim_agent.twin.device_terminal import DeviceTerminal
 from sim_agent.twin.twin_time import TwinTime
 from weaver_shared.errors import ConfigurationError
+from weaver_shared.messages import Proprioception
 
 
 class _TickedJoints:
@@ -37,6 +38,7 @@ class RealTimeTwin:
         self.wiring = wiring
         self.time = time
         self._open = ExitStack()
+        self._felt: list[tuple[int, Proprioception]] = []
         self.lock = threading.Lock()
         """To be held while servos are meddled with."""
         imu, power = wiring.config.imu, wiring.config.power
@@ -67,11 +69,18 @@ class RealTimeTwin:
         with self.lock:
             self._joints.advance(self._stamp_ns)
         self.time.tick(self._stamp_ns)
+        # Not before: what was felt at an instant can not arrive ahead of it.
+        felt, self._felt = self._felt, []
+        for now_ns, sensed in felt:
+            self.sensors.hear(now_ns, sensed)
         return self._stamp_ns
 
     def close(self) -> None:
         self._open.close()
 
+    def _feel(self, now_ns: int, sensed: Proprioception) -> None:
+        self._felt.append((now_ns, sensed))
+
     def _turned(self, servos: Sequence[EmulatedServo]) -> _TickedJoints:
-        self._joints = BodyJoints(servos, self.body, self.wiring, heard=self.sensors.hear)
+        self._joints = BodyJoints(servos, self.body, self.wiring, heard=self._feel)
         return _TickedJoints(self._joints)

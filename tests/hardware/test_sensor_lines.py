@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import struct
+import time
 from collections.abc import Callable
+from contextlib import closing
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,9 +14,13 @@ from hardware_bodies import Twin
 
 from robot_agent.hardware.imu import gx3, mip
 from robot_agent.hardware.imu.clock_map import ClockMap
+from robot_agent.hardware.imu.punctual import PunctualImu
 from robot_agent.hardware.imu.stream import MicroStrainImu, gx3_imu, gx5_imu
 from robot_agent.hardware.power_monitor import LINE_LENGTH, PowerMonitor, PowerParser, PowerRecord, encode
+from robot_agent.hardware.serial_line import SerialLine
 from sim_agent.sensor_lines import DirectLine, EmulatedGx3, EmulatedGx5, EmulatedPowerMonitor
+from sim_agent.twin.device_terminal import DeviceTerminal
+from weaver_shared.clock import SimulatedClock
 from weaver_shared.messages import ImuBatch
 
 Make = Callable[..., Twin]
@@ -53,6 +60,52 @@ def test_samples_come_through_with_their_stamps_on_our_clock(kind: str) -> None:
     assert batch.angular_velocity_in_imu == pytest.approx(sent.angular_velocity_in_imu, abs=1e-6)
     assert np.abs(np.diff(batch.stamp_ns[50:]) - STEP_NS).max() < 20_000
     assert batch.stamp_ns[-1] - HOST_NS - sent.stamp_ns[-1] == pytest.approx(1e6, abs=1.5e6)
+
+
+@pytest.mark.parametrize(("kind", "length"), [("gx3", gx3.LENGTH), ("gx5", mip.LENGTH)])
+def test_what_a_record_needs_on_its_way_is_taken_off_its_stamp(kind: str, length: int) -> None:
+    device_type, make = MAKERS[kind]
+    device = device_type()
+    line = DirectLine(device)
+    imu = make(line, 100, delay=0.004)
+    imu.take(HOST_NS)
+    sent = shaken(4)
+    records = device.records(sent)
+    assert [len(record) for record in records] == [length] * 4
+    arrivals = HOST_NS + sent.stamp_ns
+    batch = ImuBatch.join([fed(imu, line, [one], int(at)) for one, at in zip(records, arrivals, strict=True)])
+    assert batch.stamp_ns[-1] == arrivals[-1] - 4_000_000
+
+
+def test_an_imu_is_heard_at_once_by_a_thread_of_its_own(tmp_path: Path) -> None:
+    clock, device = SimulatedClock(HOST_NS), EmulatedGx5()
+    link = tmp_path / "imu"
+    with closing(DeviceTerminal(link, device)) as terminal:
+        line = SerialLine(str(link), 115_200)
+        with closing(PunctualImu(gx5_imu(line, 100), line, clock.now_ns)) as imu:
+            soon(lambda: device.streaming)
+            sent = shaken(6)
+            taken: list[ImuBatch] = []
+            for number, (record, stamp_ns) in enumerate(zip(device.records(sent), sent.stamp_ns, strict=True)):
+                clock.sleep_until(HOST_NS + int(stamp_ns))
+                terminal.put(record)
+                # The first is believed with the second.
+                soon(lambda number=number: joined_into(taken, imu).size >= (number + 1 if number else 0))
+    # Taken by a loop that has another time, their stamps are those of their arrival.
+    assert ImuBatch.join(taken).stamp_ns.tolist() == (HOST_NS + sent.stamp_ns).tolist()
+
+
+def joined_into(taken: list[ImuBatch], imu: PunctualImu) -> np.ndarray:
+    taken.append(imu.take(0))
+    return ImuBatch.join(taken).stamp_ns
+
+
+def soon(condition: Callable[..., bool]) -> None:
+    """Within half a minute of however busy a computer."""
+    deadline = time.monotonic() + 30.0
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.001)
 
 
 @pytest.mark.parametrize("kind", MAKERS)

@@ -18,6 +18,8 @@ REPLY = 0xF1
 _VECTOR = struct.Struct(">3f")
 _GPS_TIME = struct.Struct(">dHH")
 SECONDS_PER_WEEK = 604_800
+LENGTH = 48
+"""Bytes of a record: two vectors and a time."""
 BASE_RATE = 1000  # Hz of the GX5's inertial data; a message comes every so many of them
 
 

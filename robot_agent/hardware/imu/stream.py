@@ -36,12 +36,15 @@ class MicroStrainImu:
         begin: Sequence[bytes],
         *,
         imu_from_sensor: NDArray[np.float64] = Z_DOWN,
+        delay: float = 0.0,
     ) -> None:
+        """`delay`: s from a sample to its last byte here, on a computer that loses no time."""
         self._line = line
         self._make_parser = parser
         self._parser = parser()
         self._begin = begin
         self._turn = imu_from_sensor
+        self._delay_ns = round(delay * 1e9)
         self._clock = ClockMap()
         self._heard_ns: int | None = None
         self._stamp_ns = 0
@@ -83,7 +86,7 @@ class MicroStrainImu:
             record.angular_velocity,
         )
         self._same = self._same + 1 if same else 0
-        stamp_ns = self._clock.at(record.device_ns)
+        stamp_ns = self._clock.at(record.device_ns) - self._delay_ns
         # Beyond now are those from before a restart of the device that came together with one from after it.
         if self._same >= FROZEN or not self._stamp_ns < stamp_ns <= now_ns:
             return None
@@ -91,11 +94,13 @@ class MicroStrainImu:
         return stamp_ns
 
 
-def gx3_imu(line: ByteLine, rate: int) -> MicroStrainImu:
+def gx3_imu(line: ByteLine, rate: int, delay: float = 0.0) -> MicroStrainImu:
     """A 3DM-GX3-25 sending `rate` Hz."""
-    return MicroStrainImu(line, gx3.Gx3Parser, [gx3.STOP, gx3.sampling(rate), gx3.start_streaming()])
+    begin = [gx3.STOP, gx3.sampling(rate), gx3.start_streaming()]
+    return MicroStrainImu(line, gx3.Gx3Parser, begin, delay=delay)
 
 
-def gx5_imu(line: ByteLine, rate: int) -> MicroStrainImu:
+def gx5_imu(line: ByteLine, rate: int, delay: float = 0.0) -> MicroStrainImu:
     """A 3DM-GX4 or GX5 sending `rate` Hz."""
-    return MicroStrainImu(line, mip.MipParser, [mip.idle(), mip.message_format(rate), mip.start_streaming()])
+    begin = [mip.idle(), mip.message_format(rate), mip.start_streaming()]
+    return MicroStrainImu(line, mip.MipParser, begin, delay=delay)

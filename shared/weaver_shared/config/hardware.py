@@ -50,6 +50,7 @@ class ImuLine(Strict):
     kind: Literal["gx3", "gx5"]
     port: str
     baud: Annotated[int, Field(gt=0)] = 115_200  # bit/s
+    delay: Annotated[float, Field(ge=0.0)] | None = None  # s from a sample to its last byte; None: its time on the wire
 
 
 class PowerLine(Strict):
