@@ -8,7 +8,7 @@ from weaver_shared.bus import Bus
 from weaver_shared.errors import ResourceError
 from weaver_shared.messages import Answer, Command, CommandName, Waypoint
 
-RETAIN_PERIOD = 0.5
+RETAIN_PERIOD = 0.25
 
 
 class Operator:

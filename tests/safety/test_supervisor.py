@@ -75,7 +75,7 @@ def test_each_fault_has_its_consequence_and_its_words(
 @pytest.mark.parametrize(
     "changes",
     [
-        {"operator_silence": 1.0},
+        {"operator_silence": 0.75},
         {"tilt": 0.61},
         {"imu_age": 0.2},
         {"odometry_age": 0.5},

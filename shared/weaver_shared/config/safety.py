@@ -8,7 +8,7 @@ class SafetyLimits(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    operator_silence: float = 1.0  # a frozen page retains its lease at 2 Hz no more
+    operator_silence: float = 0.75  # pages retain their lease at 4 Hz; still within 1.5 s, as legs need up to 0.7 s
     hold_before_sit: float = 60.0
     tilt_hold: float = 0.61  # 35 degrees; the robot is meant to climb 30
     tilt_cut: float = 1.05  # 60 degrees: it has fallen over

@@ -9,7 +9,7 @@ from weaver_shared.messages.estimation import Waypoint
 class CommandName(StrEnum):
     TAKE_CONTROL = "take_control"
     RELEASE_CONTROL = "release_control"
-    RETAIN_CONTROL = "retain_control"  # 2 Hz keep-alive of the lease, the operator's heartbeat
+    RETAIN_CONTROL = "retain_control"  # 4 Hz keep-alive of the lease, the operator's heartbeat
     STAND = "stand"
     SIT = "sit"  # name "pack": fold the legs away as well
     STOP = "stop"  # emergency stop; needs no lease; latches

@@ -3,7 +3,7 @@ import { LOGIN_NEEDED, REPLACED, ReconnectingSocket } from "../protocol/reconnec
 import type { Incoming } from "../protocol/wire";
 import { settleAllUnanswered } from "./commands";
 import { holdsControl } from "./control";
-import { tellLossOfControl } from "./controlLoss";
+import { expectReturn, tellLossOfControl } from "./controlLoss";
 import { newPageId, socketAddress } from "./identity";
 import { expireNotices } from "./notices";
 import { send, sendThrough } from "./outbox";
@@ -14,7 +14,7 @@ import { useConsole } from "./store";
 /** ms between two updates of the panels: at least the first, and so long that they take a fifth of the time. */
 const FLUSH_PERIODS = { shortest: 100, longest: 500, share: 5 };
 const TICK_PERIOD = 250;
-const RETAIN_PERIOD = 500;
+const RETAIN_PERIOD = 250;
 const PING_PERIOD = 1000;
 /** Pings without anything heard after which the connection is given up: a dead network says nothing.
  *  NOTE: counted, not timed, since a page that was itself busy finds the answers waiting. */
@@ -72,6 +72,7 @@ function opened(): void {
 
 function lost(code: number): void {
   flush();
+  expectReturn(performance.now());
   const connection = code === REPLACED ? "replaced" : code === LOGIN_NEEDED ? "login" : "lost";
   useConsole.setState(({ lostAt }) => ({ connection, lostAt: lostAt ?? performance.now(), link: null }));
   settleAllUnanswered("The connection to the console was lost before it answered.");
