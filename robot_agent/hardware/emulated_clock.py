@@ -17,6 +17,7 @@ from weaver_shared.errors import ResourceError
 
 LAYOUT = struct.Struct("<QqqQ")
 """Count of writings, time of the last tick, monotonic time at which it ended (ns), the count again."""
+COUNT = 8  # bytes of each count
 TICK_NS = 10_000_000
 STANDSTILL_NS = 20_000_000_000
 LEAST_NAP = 2e-4  # s
@@ -53,8 +54,10 @@ class EmulatedClock:
 
     def _last_tick(self) -> tuple[int, int]:
         while True:
-            before, ended_ns, at_ns, after = LAYOUT.unpack_from(self._map)
-            if before == after:
+            # Against the order in which it is written.
+            after = self._map[-COUNT:]
+            _, ended_ns, at_ns, _ = LAYOUT.unpack_from(self._map)
+            if self._map[:COUNT] == after:
                 return ended_ns, at_ns
 
     def _still_there(self) -> None:

@@ -62,7 +62,7 @@ class Supervisor:
         for child in self._children:
             if child.process is not None and (code := child.process.poll()) is not None:
                 child.process = None
-                if code == REFUSED and child.starts == 1:
+                if code == REFUSED and child.starts == 1 and now - child.started < STABLE_AFTER:
                     raise ConfigurationError(f"{child.name} can not start with these settings")
                 child.failures = 0 if now - child.started > STABLE_AFTER else child.failures + 1
                 pause = 0.0 if child.failures == 0 else min(0.5 * 2**child.failures, 10.0)

@@ -7,6 +7,7 @@ import contextlib
 import json
 import signal
 import socket
+import subprocess
 import sys
 import time
 import types
@@ -51,18 +52,23 @@ def _start(supervisor: Supervisor, options: argparse.Namespace, *, rendezvous: s
     world = ["--world", options.world, "--seed", str(options.seed)]
     name = ["--robot", options.description]
     own = ["--robot-id", options.robot_id, "--connect", rendezvous, "--listen", robot, "--stand"]
+    eyes: list[str] = []
     if options.robot == "twin":
         # The ports of one that was killed lead nowhere.
         wiring = twin_folder(options.robot_id) / "wiring.toml"
         wiring.unlink(missing_ok=True)
-        supervisor.add(
-            "the emulated devices", ["weaver_shared.command_line", "twin", "run", *known, *world, *name], nice=-5
-        )
+        seen = _sees_gige()
+        eyes = ["--cameras", str(wiring)] if seen else []
+        devices = ["twin", "run", *known, *world, *name, *(["--cameras"] if seen else [])]
+        supervisor.add("the emulated devices", ["weaver_shared.command_line", *devices], nice=-5)
         walk = ["--role", "walk", "--wiring", str(wiring), "--wait", "60", "--world", options.world]
         supervisor.add("the robot", ["weaver_shared.command_line", "robot", *walk, *own, *name], nice=-5)
     else:
         supervisor.add("the robot", ["weaver_shared.command_line", "sim", *own, *world, *name], nice=-5)
-    supervisor.add("the renderer", ["sim_agent.render_process", *known, *world, *name], nice=2)
+    supervisor.add("the renderer", ["sim_agent.render_process", *known, *world, *name, *eyes], nice=2)
+    if eyes:
+        cameras = ["cameras", "--wiring", str(wiring), "--wait", "60", *known]
+        supervisor.add("the cameras", ["weaver_shared.command_line", *cameras], nice=2)
     supervisor.add("vision", ["weaver_shared.command_line", "robot", "--role", "vision", *known, *name], nice=2)
     recorder = ["--robot-id", options.robot_id, "--connect", f"{rendezvous},{robot}", "--folder", options.recordings]
     supervisor.add("the recorder", ["weaver_shared.command_line", "record", *recorder, *name], nice=2)
@@ -73,6 +79,16 @@ def _start(supervisor: Supervisor, options: argparse.Namespace, *, rendezvous: s
         console = ["--host", HOST, "--port", str(options.port), "--listen", rendezvous, "--connect", robot]
         supervisor.add("the console", ["weaver_shared.command_line", "console", *console], nice=-5)
     print(json.dumps({"bus": rendezvous, "pids": supervisor.pids}), file=sys.stderr, flush=True)
+
+
+def _sees_gige() -> bool:
+    """Whether this computer can see GigE Vision cameras; says so where it can not."""
+    asked = [sys.executable, "-m", "weaver_shared.command_line", "cameras", "--have-aravis"]
+    told = subprocess.run(asked, capture_output=True, text=True, check=False)
+    if told.returncode:
+        reason = (told.stderr.strip().splitlines() or ["no reason given"])[-1]
+        print(f"weaver up: the twin's pictures come straight from the renderer, since {reason}", file=sys.stderr)
+    return not told.returncode
 
 
 def _announce(supervisor: Supervisor, options: argparse.Namespace, timeout: float = 60.0) -> None:

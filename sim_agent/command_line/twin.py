@@ -60,7 +60,7 @@ def _run(options: argparse.Namespace, folder: Path) -> int:
         signal.signal(number, lambda *_: ended.set())
     sys.setswitchinterval(SWITCH_INTERVAL)
     folder.mkdir(mode=0o700, exist_ok=True)
-    config = twin_wiring(robot, folder, settings=SETTINGS, clock=folder / "time")
+    config = twin_wiring(robot, folder, settings=SETTINGS, clock=folder / "time", cameras=options.cameras)
     bus = ZenohBus(connect=options.connect.split(",") if options.connect else [])
     with closing(bus), closing(SimulatedBody(robot, world, options.seed)) as body:
         time = TwinTime(folder / "time")
@@ -129,6 +129,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--world", default="testbed", help="flat, testbed, outdoor, stairs, wall or pen")
     run.add_argument("--seed", type=int, default=1, help="seed of the world and of all sensor noise")
     run.add_argument("--connect", default="tcp/127.0.0.1:7447", help="bus endpoints to join, comma-separated")
+    run.add_argument("--cameras", action="store_true", help="its pictures come from GigE Vision cameras")
     inject = tasks.add_parser("inject", help="make something go wrong with a running one")
     inject.add_argument("fault", metavar="FAULT", help=f"one of {', '.join(FAULTS)}")
     inject.add_argument("target", nargs="?", default="", help="joint (AR_yaw) or bus (right) that it happens to")

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import zlib
 from pathlib import Path
 
 from robot_agent.hardware.servos.registers import CENTRE
 from weaver_shared.config.hardware import (
     EmulatedRobot,
+    GenicamCameras,
     HardwareConfig,
     ImuLine,
     PowerLine,
@@ -25,10 +27,11 @@ def twin_wiring(
     baud: int = 3_000_000,
     settings: ServoSettings | None = None,
     clock: Path | None = None,
+    cameras: bool = False,
 ) -> HardwareConfig:
     """Legs right of the body on one bus and left of it on the other; ports are names in `folder`.
 
-    With `clock`, where the robot's time stands, IMU and power monitor have lines too.
+    With `clock`, where the time stands, IMU and power monitor have lines too; with `cameras`, two of GigE Vision.
     """
     sides = ["right" if leg.hip_in_body[1] < 0.0 else "left" for leg in robot.legs]
     joints = []
@@ -44,8 +47,16 @@ def twin_wiring(
         servos=settings or ServoSettings(),
         imu=ImuLine(kind="gx5", port=str(folder / "imu"), delay=0.0) if clock is not None else None,
         power=PowerLine(port=str(folder / "power")) if clock is not None else None,
+        cameras=_cameras(robot, folder) if cameras else None,
         emulated=EmulatedRobot(clock=str(clock)) if clock is not None else None,
     )
+
+
+def _cameras(robot: RobotDescription, folder: Path) -> GenicamCameras:
+    """On addresses of this computer alone, others for each folder: the protocol knows but one port."""
+    network = zlib.crc32(str(folder).encode())
+    address = f"127.{64 + network % 128}.{network // 128 % 256}."
+    return GenicamCameras(kind="genicam", left=address + "1", right=address + "2", rate=robot.camera.rate)
 
 
 def wiring_file(config: HardwareConfig) -> str:

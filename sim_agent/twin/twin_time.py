@@ -6,7 +6,7 @@ import mmap
 import time
 from pathlib import Path
 
-from robot_agent.hardware.emulated_clock import LAYOUT, TICK_NS
+from robot_agent.hardware.emulated_clock import COUNT, LAYOUT, TICK_NS
 
 
 class TwinTime:
@@ -29,9 +29,11 @@ class TwinTime:
         """A tick of physics has ended at this time of the robot's."""
         self._count += 1
         self._ended_ns, self._at_ns = ended_ns, time.monotonic_ns()
-        # Between its two counts a reader sees whether it was read half written.
-        LAYOUT.pack_into(self._map, 0, self._count, ended_ns, self._at_ns, self._count - 1)
-        LAYOUT.pack_into(self._map, 0, self._count, ended_ns, self._at_ns, self._count)
+        # Between its two counts a reader sees whether it was read half written. Never by `pack_into`: that fills with
+        # zeros first, and a clock that is 0 for a moment stands still, or jumps, for whoever looks just then.
+        record = LAYOUT.pack(self._count, ended_ns, self._at_ns, self._count)
+        for part in (slice(0, COUNT), slice(COUNT, LAYOUT.size - COUNT), slice(LAYOUT.size - COUNT, LAYOUT.size)):
+            self._map[part] = record[part]
 
     def now_ns(self) -> int:
         return self._ended_ns + min(time.monotonic_ns() - self._at_ns, TICK_NS)

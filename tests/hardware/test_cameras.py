@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 import subprocess
 import sys
 import threading
@@ -189,30 +188,19 @@ def test_the_process_sends_pairs_previews_and_troubles_once() -> None:
 
 
 def test_genicam_cameras_give_the_rendered_pairs() -> None:
-    """Real GigE Vision packets on loopback, in a network of their own; then one camera falls silent."""
+    """Real GigE Vision packets on loopback, some of them lost; then one camera falls silent."""
     try:
         aravis()
     except ResourceError:
         pytest.skip(f"Aravis is not installed: apt-get install {PACKAGES}")
-    isolated = ["unshare", "--net", "sh", "-c"]
-    addresses = "ip link set lo up && ip addr add 127.0.0.2/8 dev lo"
-    if (
-        shutil.which("unshare") is None
-        or subprocess.run([*isolated, addresses], capture_output=True, check=False).returncode
-    ):
-        pytest.skip("two camera addresses need a network namespace, which this user can not make")
     program = Path(__file__).with_name("genicam_pair.py")
-    run = subprocess.run(
-        [*isolated, f"{addresses} && exec {sys.executable} {program}"],
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
+    run = subprocess.run([sys.executable, str(program)], capture_output=True, text=True, timeout=300, check=False)
     assert run.returncode == 0, run.stderr
     seen = json.loads(run.stdout.splitlines()[-1])
-    assert seen["pairs"] >= 12
+    assert (seen["pairs"], seen["lost"]) == (12, 0)
     assert seen["same"]
-    assert seen["stamps_rise"]
-    assert seen["stamped_within"]
+    assert seen["missing"] == [[], []]
+    # Stamped by the cameras' clocks: the pictures came 0.3 s late.
+    assert seen["stamp_error"] < 0.15
+    assert seen["chunks"] == {"frame": 1, "exposure": 10_000.0, "stamped": True}
     assert seen["trouble"] == "the right camera sends no pictures"

@@ -37,6 +37,11 @@ class GenicamStereo:
         self._heard_ns = [0, 0]
         self._connect()
 
+    @property
+    def eyes(self) -> tuple[GenicamEye, ...]:
+        """Left and right; none while they are gone."""
+        return self._eyes
+
     def read(self, timeout: float) -> StereoFrame | None:
         until_ns = self._clock.now_ns() + round(timeout * 1e9)
         while self._clock.now_ns() < until_ns:

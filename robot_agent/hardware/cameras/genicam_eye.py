@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -14,6 +15,13 @@ from robot_agent.hardware.imu.clock_map import ClockMap
 from weaver_shared.errors import ResourceError
 
 BUFFERS = 8
+CLOCKS = (("GevTimestampControlLatch", "GevTimestampValue"), ("TimestampLatch", "TimestampLatchValue"))
+"""What makes a camera keep its time for us, and where: without that a picture's way would count as delay."""
+LOOK_NS = 1_000_000_000
+"""Between looks at the camera's clock."""
+TICKS = "GevTimestampTickFrequency"
+
+logger = logging.getLogger(__name__)
 
 
 class GenicamEye:
@@ -24,6 +32,7 @@ class GenicamEye:
         self._now_ns = now_ns
         self._half_exposure_ns = round(0.5e9 * exposure)
         self._clock = ClockMap()
+        self._look_ns = 0
         self.incomplete = 0
         """Pictures that came with parts missing."""
         self.missing: list[str] = []
@@ -38,6 +47,8 @@ class GenicamEye:
             payload = self._camera.get_payload()
             for _ in range(BUFFERS):
                 self._stream.push_buffer(self._library.Buffer.new_allocate(payload))
+            self._latch = next((pair for pair in CLOCKS if device.get_feature(pair[0]) is not None), None)
+            self._look_at_clock(now_ns())
             self._camera.start_acquisition()
         except ResourceError:
             raise
@@ -70,6 +81,8 @@ class GenicamEye:
             return None
         device_ns = int(buffer.get_timestamp())
         self._clock.observe(device_ns, arrived_ns)
+        if arrived_ns - self._look_ns >= LOOK_NS:
+            self._look_at_clock(arrived_ns)
         count = self._width * self._height
         pixels = np.frombuffer(buffer.get_data(), dtype=np.uint8, count=count).reshape(self._height, self._width)
         return Picture(
@@ -77,6 +90,26 @@ class GenicamEye:
             stamp_ns=self._clock.at(device_ns) + self._half_exposure_ns,
             pixels=pixels.copy(),
         )
+
+    def _look_at_clock(self, now_ns: int) -> None:
+        """Nothing where the camera does not tell its time, or no longer."""
+        self._look_ns = now_ns
+        if self._latch is None:
+            return
+        command, value = self._latch
+        device = self._camera.get_device()
+        try:
+            device.execute_command(command)
+            kept_ns = self._now_ns()
+            self._clock.observe(int(device.get_integer_feature_value(value) * self._tick_ns(device)), kept_ns)
+        except Exception:  # GLib.Error exists only with the library
+            logger.warning("a camera does not tell its time; pictures are stamped by when they come")
+
+    @staticmethod
+    def _tick_ns(device: Any) -> float:
+        if device.get_feature(TICKS) is None:
+            return 1.0
+        return 1e9 / float(device.get_integer_feature_value(TICKS))
 
     def _region(self) -> tuple[int, int, int, int]:
         x, y, width, height = self._camera.get_region()
