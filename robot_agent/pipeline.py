@@ -82,7 +82,6 @@ class VisionPipeline:
         self._felt = Roughness.unknown()
         self._felt_ns = 0  # when the legs last told anything
         self._adaptation = AdaptationController(robot.adaptation)
-        self._reach_of_feet = robot.reach_of_feet
         self._planner = RoutePlanner(robot)
         self._goal: NavigationGoal | None = None
         self._areas: tuple[Area, ...] = ()
@@ -119,7 +118,7 @@ class VisionPipeline:
         self._map.follow(self._odometry.settled_poses)
         self._map.update(perceived, odometry)
         x, y, _ = odometry.position_in_world
-        worst = self._map.worst_within(x, y, self._reach_of_feet)
+        worst = self._map.worst_within(x, y)
         dt = 0.0 if self._adapted_ns is None else (frame.stamp_ns - self._adapted_ns) * 1e-9
         self._adapted_ns = frame.stamp_ns
         report = self._adaptation.step(worst, perceived.estimate, frame.stamp_ns, dt, self._felt)

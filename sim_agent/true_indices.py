@@ -24,17 +24,12 @@ def cell_tops(world: World, x: Array, y: Array, cell: float) -> Array:
     return top
 
 
-def worst_along(
-    world: World,
-    places: Array,
-    reach: float,
-    config: MappingConfig = MappingConfig(),  # noqa: B008
-) -> Array:
+def worst_along(world: World, places: Array, config: MappingConfig = MappingConfig()) -> Array:  # noqa: B008
     """Roughness and step height (n, 2) that rule the gait of a body at `places` (n,), m along the x axis.
 
-    As `worst_within` asks the map: the quantile of the circle within `reach` m, here of the true surface.
+    As `worst_within` asks the map: the quantile of the circle under the feet, here of the true surface.
     """
-    rim = (config.window // 2 + 1) * config.cell
+    reach, rim = config.query_radius, (config.window // 2 + 1) * config.cell
     x = np.arange(places.min() - reach - rim, places.max() + reach + rim, config.cell)
     y = np.arange(-reach - rim, reach + rim, config.cell)
     top = cell_tops(world, x, y, config.cell).astype(np.float32)

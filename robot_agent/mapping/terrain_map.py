@@ -178,9 +178,9 @@ class TerrainMap:
         grid = self.grid
         self._renew_features(Extent(grid.row0, grid.column0, grid.row0 + grid.size, grid.column0 + grid.size))
 
-    def worst_within(self, x: float, y: float, radius: float) -> WorstTerrain:
-        """Worst roughness and step height within `radius` m of world (x, y)."""
-        return worst_terrain(self.grid, x, y, radius, self._config)
+    def worst_within(self, x: float, y: float, radius: float | None = None) -> WorstTerrain:
+        """Worst roughness and step height within `radius` m (the feet's reach by default) of world (x, y)."""
+        return worst_terrain(self.grid, x, y, radius or self._config.query_radius, self._config)
 
     def elevation_at(self, x: float, y: float) -> float:
         """World z in m of the cell that holds (x, y); NaN unknown."""

@@ -86,7 +86,7 @@ def _trials_on(ground: str, results: list[TrialResult]) -> list[Trial]:
 
 def _best(ground: Ground, robot: RobotDescription, results: list[TrialResult]) -> BestGait:
     here = [result for result in results if result.trial.ground == ground.name]
-    return best_gait(ground.name, true_indices(ground.world(robot), robot), here)
+    return best_gait(ground.name, true_indices(ground.world(robot)), here)
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -85,8 +85,7 @@ def measured_section() -> tuple[float, float]:
     return RUN_UP + 0.1, RUN_UP + LENGTH - 0.4
 
 
-def true_indices(world: World, robot: RobotDescription) -> tuple[float, float]:
+def true_indices(world: World) -> tuple[float, float]:
     """Roughness and step height that rule the gait on the measured section: means along the way."""
-    places = np.arange(*measured_section(), 0.1)
-    roughness, step_height = worst_along(world, places, robot.reach_of_feet).mean(axis=0)
+    roughness, step_height = worst_along(world, np.arange(*measured_section(), 0.1)).mean(axis=0)
     return float(roughness), float(step_height)

@@ -10,7 +10,6 @@ from robot_agent.mapping import TerrainMap
 from robot_agent.mapping.tiles import FULL_SCALE, UNKNOWN, UNKNOWN_ELEVATION, worth_sending
 
 SECOND = 1_000_000_000
-RADIUS = 0.45  # m
 
 
 def flat(x, y):
@@ -32,14 +31,14 @@ def map_of(elevation, **where):
 
 
 def test_an_empty_map_knows_nothing():
-    worst = TerrainMap().worst_within(0.0, 0.0, RADIUS)
+    worst = TerrainMap().worst_within(0.0, 0.0)
     assert np.isnan([worst.roughness, worst.roughness_sigma, worst.step_height, worst.step_height_sigma]).all()
     assert worst.known == 0.0
     assert np.isnan(TerrainMap().elevation_at(0.0, 0.0))
 
 
 def test_flat_ground_is_flat_and_bumpy_ground_is_rough():
-    smooth, rough = (map_of(elevation).worst_within(0.0, 0.0, RADIUS) for elevation in (flat, bumpy))
+    smooth, rough = (map_of(elevation).worst_within(0.0, 0.0) for elevation in (flat, bumpy))
     assert smooth.roughness < 0.05
     assert smooth.step_height < 0.05
     assert rough.roughness > 0.9
@@ -48,15 +47,15 @@ def test_flat_ground_is_flat_and_bumpy_ground_is_rough():
 
 def test_rough_ground_counts_once_a_tenth_of_the_circle_is_on_it():
     terrain_map = map_of(half_bumpy)
-    assert terrain_map.worst_within(0.25 - RADIUS - 0.13, 0.0, RADIUS).roughness < 0.05
-    assert terrain_map.worst_within(0.0, 0.0, RADIUS).roughness > 0.5
+    assert terrain_map.worst_within(0.25 - 0.45 - 0.13, 0.0).roughness < 0.05
+    assert terrain_map.worst_within(0.0, 0.0).roughness > 0.5
 
 
 def test_a_circle_mostly_unseen_is_unknown():
     terrain_map = map_of(flat, x=(0.1, 1.0))
-    assert np.isnan(terrain_map.worst_within(0.0, 0.0, RADIUS).roughness)
-    assert terrain_map.worst_within(0.55, 0.0, RADIUS).roughness < 0.05
-    assert np.isnan(terrain_map.worst_within(50.0, 0.0, RADIUS).roughness)
+    assert np.isnan(terrain_map.worst_within(0.0, 0.0).roughness)
+    assert terrain_map.worst_within(0.55, 0.0).roughness < 0.05
+    assert np.isnan(terrain_map.worst_within(50.0, 0.0).roughness)
 
 
 def test_ground_outside_the_view_is_kept_while_the_robot_walks_on():

@@ -107,11 +107,3 @@ def test_a_mistake_is_named(tmp_path: Path, old: str, new: str, sentence: str) -
 def test_an_unknown_robot_is_answered_with_the_known_ones() -> None:
     with pytest.raises(ConfigurationError, match=r"robot 'spot' is unknown; known are .*weaver"):
         load_robot("spot")
-
-
-def test_feet_reach_half_a_stride_beyond_where_they_stand():
-    robot = load_robot()
-    feet = robot.stance_in_body[:, :2]
-    behind = feet - [0.5 * robot.locomotion.largest_stride, 0.0]
-    assert np.hypot(*behind.T).max() <= robot.reach_of_feet
-    assert robot.reach_of_feet == pytest.approx(0.501, abs=1e-3)

@@ -75,7 +75,7 @@ def test_the_study_looks_beyond_the_bounds_in_use():
 
 
 def test_the_studied_grounds_span_roughness_and_step_height():
-    found = {ground.name: true_indices(ground.world(ROBOT), ROBOT) for ground in GROUNDS}
+    found = {ground.name: true_indices(ground.world(ROBOT)) for ground in GROUNDS}
     assert found["level"] == pytest.approx((0.0, 0.0), abs=1e-6)
     roughness = [found[name][0] for name in ("level", "gravel", "sand", "stones", "rubble", "broken", "boulders")]
     assert np.all(np.diff(roughness) > 0.02)

@@ -33,6 +33,7 @@ class MappingConfig(BaseModel):
     deform_rise: Positive = 0.004  # m upwards, by which odometry has to change its mind before the map is deformed
     window: Annotated[int, Field(ge=5)] = 11  # cells along the square whose features make a cell's roughness
     min_coverage: Fraction = 0.3  # of that square
+    query_radius: Positive = 0.45  # m about the body: the feet and a stride
     query_quantile: Fraction = 0.9  # of the circle's cells: the worst, but not ruled by one bad cell
     query_coverage: Fraction = 0.5  # of the circle that must be known
     features: FeatureConfig = FeatureConfig()

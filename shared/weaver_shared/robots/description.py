@@ -217,12 +217,6 @@ class RobotDescription(Part):
         """How far beside a straight way its feet are set, m."""
         return float(np.abs(self.stance_in_body[:, 1]).max()) + self.foot_radius
 
-    @property
-    def reach_of_feet(self) -> float:
-        """How far from its middle it sets and leaves feet as it walks, m."""
-        stance = self.stance_in_body[:, :2]
-        return float(np.hypot(stance[:, 0], stance[:, 1]).max()) + 0.5 * self.locomotion.largest_stride
-
 
 def _unique(key: str, names: list[str]) -> None:
     for name in names:
