@@ -195,8 +195,8 @@ def _add_pages(app: FastAPI, hub: Hub, folder: Path | None) -> None:
         root = folder or built_page.page_folder()
         if root is None:
             return HTMLResponse(built_page.NOT_BUILT, status_code=503)
-        wanted = (root / (path or "index.html")).resolve()
-        if not wanted.is_relative_to(root.resolve()) or not wanted.is_file():
+        wanted = built_page.file_at(root, path or "index.html")
+        if wanted is None:
             return JSONResponse({"error": "there is nothing at this address"}, status_code=404)
         lasting = path.startswith("assets/")  # the build puts a digest into their names
         caching = "public, max-age=31536000, immutable" if lasting else "no-cache"

@@ -46,3 +46,12 @@ def page_folder() -> Path | None:
         if (folder / "index.html").is_file():
             return folder
     return None
+
+
+def file_at(folder: Path, path: str) -> Path | None:
+    """The page's file at an address; None where there is none, or where no file can be."""
+    try:
+        wanted = (folder / path).resolve()
+        return wanted if wanted.is_relative_to(folder.resolve()) and wanted.is_file() else None
+    except (OSError, ValueError):  # a name too long for the disk, or with a zero byte
+        return None

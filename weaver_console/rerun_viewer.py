@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import hashlib
 import importlib.metadata
 import importlib.util
 import sys
@@ -44,7 +45,9 @@ class RerunDesk:
         if not self.installed:
             raise ResourceError("Rerun is not installed beside the console; `pip install rerun-sdk` brings it")
         async with self._converting:
-            source = self._folder / "recordings" / f"{robot} {recording}"
+            # Not by the names that were asked for: they may be longer than a file's, or none at all.
+            digest = hashlib.sha256(f"{robot}\n{recording}".encode(errors="replace")).hexdigest()
+            source = self._folder / "recordings" / f"{digest}.mcap"
             source.parent.mkdir(parents=True, exist_ok=True)
             try:
                 size = await fetch_recording(self._link, robot, recording, source)

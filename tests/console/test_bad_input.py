@@ -150,3 +150,11 @@ def test_bytes_that_can_not_be_read_are_a_fault_of_who_sent_them():
         console.close()
     assert told[0][0] == "newcomer"
     assert "update both ends" in told[0][1]
+
+
+@pytest.mark.parametrize("name", ["a" * 300, "a%00b", "%C3%A4" * 200, ".." + "%2F..%2Fetc%2Fpasswd"])
+@pytest.mark.parametrize("address", ["/{}", "/api/missions/{}", "/api/rerun/{}/run.rrd", "/api/rerun/weaver/{}"])
+def test_names_that_no_file_can_have_are_answered(address: str, name: str, console: Console, robot: GuardedRobot):
+    answer = console.http.get(address.format(name))
+    assert answer.status_code in (404, 504), answer.text
+    assert answer.json()["error"]
