@@ -128,6 +128,9 @@ def test_the_3d_view_places_and_drags_waypoints_and_stops_by_key(
     anna.page.keyboard.press("Space")
     anna.see_state("ESTOP")
     assert stage.robot.stopped
+    hosts = {address.split("/")[2] for address in anna.requested if address.startswith(("http", "ws"))}
+    assert hosts == {stage.address.split("/")[2]}
+    assert any("/viser/" in address for address in anna.requested)
 
 
 def _until(visitor: Any, holds: Callable[[], bool], seconds: float = 25.0) -> None:

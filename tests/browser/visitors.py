@@ -41,6 +41,7 @@ class Visitor:
     def __post_init__(self) -> None:
         self.page.set_default_timeout(PATIENT)
         self.page.on("request", lambda request: self.requested.append(request.url))
+        self.page.on("websocket", lambda websocket: self.requested.append(websocket.url))
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
 
     def wait_for_layout(self) -> None:

@@ -1,9 +1,8 @@
 /** The page: top bar, views on the left, panels on the right. */
-import { Suspense, lazy, useEffect } from "react";
+import { Suspense, lazy } from "react";
 import { AdaptationPanel } from "./adaptation/AdaptationPanel";
 import { BodyPanel } from "./body/BodyPanel";
 import { CALIBRATION, useAddress } from "./calibration/address";
-import { startSession } from "./console/session";
 import { useConsole } from "./console/store";
 import { EventLog } from "./events/EventLog";
 import { Notices } from "./events/Notices";
@@ -22,7 +21,6 @@ import { TopBar } from "./topbar/TopBar";
 const CalibrationPage = lazy(() => import("./calibration/CalibrationPage"));
 
 export function App() {
-  useEffect(startSession, []);
   useStopKeys();
   useUndoKeys();
   const connected = useConsole((state) => state.connection === "open");

@@ -22,6 +22,7 @@ const UNANSWERED_PINGS = 5;
 
 /** Marks when the first values of a robot were shown, for whoever measures the page. */
 const USABLE = "weaver.usable";
+let marked = false;
 
 const page = newPageId();
 let waiting: Incoming[] = [];
@@ -33,19 +34,13 @@ let flushPeriod = FLUSH_PERIODS.shortest;
 
 const socket = new ReconnectingSocket(() => socketAddress(page), { opened, received, lost });
 
-/** Begins and keeps the connection; the returned function ends it. */
-export function startSession(): () => void {
+/** Begins the connection and keeps it for as long as the page is there. */
+export function startSession(): void {
   sendThrough((message) => socket.send(message));
   socket.connect();
-  const timers = [
-    setInterval(tick, TICK_PERIOD),
-    setInterval(() => holdsControl(useConsole.getState()) && send({ type: "retain" }), RETAIN_PERIOD),
-    setInterval(ping, PING_PERIOD),
-  ];
-  return () => {
-    timers.forEach(clearInterval);
-    socket.close();
-  };
+  setInterval(tick, TICK_PERIOD);
+  setInterval(() => holdsControl(useConsole.getState()) && send({ type: "retain" }), RETAIN_PERIOD);
+  setInterval(ping, PING_PERIOD);
 }
 
 export function reconnectNow(): void {
@@ -95,7 +90,10 @@ function flush(): void {
   if (messages.length > 0) {
     const began = performance.now();
     show(messages);
-    afterPainting(() => (flushPeriod = periodOf(performance.now() - began)));
+    afterPainting(() => {
+      flushPeriod = periodOf(performance.now() - began);
+      markUsable();
+    });
   }
   // NOTE: told only after the work, so that a busy page is sent less rather than later.
   if (untakenFrames > 0) send({ type: "taken", frames: Math.min(untakenFrames, MOST_TAKEN) });
@@ -111,11 +109,15 @@ function afterPainting(then: () => void): void {
   requestAnimationFrame(() => setTimeout(then, 0));
 }
 
+/** Once values have come and the page itself has been drawn: the connection is begun before that. */
+function markUsable(): void {
+  if (marked || document.querySelector(".page") === null || useConsole.getState().values["tele/state"] === undefined) return;
+  marked = true;
+  performance.mark(USABLE);
+}
+
 function show(messages: readonly Incoming[]): void {
   const now = performance.now();
-  if (messages.some((message) => message.type === "value") && performance.getEntriesByName(USABLE).length === 0) {
-    performance.mark(USABLE);
-  }
   const stored = messages.filter((message) => !(message.type === "value" && message.key.startsWith("tele/map/")));
   const before = useConsole.getState();
   useConsole.setState({ ...receive(before, stored, now), now });
