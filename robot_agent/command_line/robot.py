@@ -15,6 +15,7 @@ from pathlib import Path
 import cv2
 
 from robot_agent.hardware.opening import open_robot
+from robot_agent.hardware.presence import require_devices
 from robot_agent.hardware.wiring import Wiring, load_wiring
 from robot_agent.loops import WalkLoop
 from robot_agent.vision_process import VisionProcess
@@ -50,6 +51,7 @@ def _walk(options: argparse.Namespace, bus: ZenohBus, ended: threading.Event) ->
         raise ResourceError(f"a robot called {options.robot_id!r} is already on the bus; choose another --robot-id")
     _wait_for(options.wiring, options.wait, ended)
     config = load_wiring(options.wiring)
+    require_devices(config)
     robot = load_robot(options.robot or config.robot)
     body = open_robot(Wiring(config, robot))
     try:

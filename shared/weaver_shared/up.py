@@ -1,4 +1,4 @@
-"""`weaver up`: a simulated robot and the console, ready to be driven from a browser."""
+"""`weaver up`: a robot - simulated, emulated or real - and the console, ready to be driven from a browser."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ import socket
 import subprocess
 import sys
 import time
+import tomllib
 import types
 import urllib.request
 import webbrowser
+from pathlib import Path
 
 from weaver_shared.bus import free_port
 from weaver_shared.errors import ConfigurationError, ResourceError
@@ -27,6 +29,13 @@ RENDEZVOUS = 7447
 
 def main(arguments: list[str]) -> int:
     options = _parser().parse_args(arguments)
+    real = options.robot == "hardware"
+    options.robot_id = options.robot_id or ("weaver-1" if real else "sim-1")
+    if real != (options.wiring is not None):
+        raise ConfigurationError(
+            "--robot hardware needs --wiring FILE, and no other robot takes one; see `weaver doctor`"
+        )
+    options.has_cameras = real and _has_cameras(options.wiring)
     robot_key(options.robot_id, "")
     if options.console:
         _require_free(options.port)
@@ -51,8 +60,9 @@ def _start(supervisor: Supervisor, options: argparse.Namespace, *, rendezvous: s
     known = ["--robot-id", options.robot_id, "--connect", f"{rendezvous},{robot}"]
     world = ["--world", options.world, "--seed", str(options.seed)]
     name = ["--robot", options.description]
-    own = ["--robot-id", options.robot_id, "--connect", rendezvous, "--listen", robot, "--stand"]
+    own = ["--robot-id", options.robot_id, "--connect", rendezvous, "--listen", robot]
     eyes: list[str] = []
+    wiring = options.wiring
     if options.robot == "twin":
         # The ports of one that was killed lead nowhere.
         wiring = twin_folder(options.robot_id) / "wiring.toml"
@@ -61,12 +71,17 @@ def _start(supervisor: Supervisor, options: argparse.Namespace, *, rendezvous: s
         eyes = ["--cameras", str(wiring)] if seen else []
         devices = ["twin", "run", *known, *world, *name, *(["--cameras"] if seen else [])]
         supervisor.add("the emulated devices", ["weaver_shared.command_line", *devices], nice=-5)
-        walk = ["--role", "walk", "--wiring", str(wiring), "--wait", "60", "--world", options.world]
+        walk = ["--role", "walk", "--wiring", str(wiring), "--wait", "60", "--world", options.world, "--stand"]
         supervisor.add("the robot", ["weaver_shared.command_line", "robot", *walk, *own, *name], nice=-5)
+    elif options.robot == "hardware":
+        # It stands up when somebody who looks at it says so.
+        walk = ["--role", "walk", "--wiring", str(wiring)]
+        supervisor.add("the robot", ["weaver_shared.command_line", "robot", *walk, *own], nice=-5)
     else:
-        supervisor.add("the robot", ["weaver_shared.command_line", "sim", *own, *world, *name], nice=-5)
-    supervisor.add("the renderer", ["sim_agent.render_process", *known, *world, *name, *eyes], nice=2)
-    if eyes:
+        supervisor.add("the robot", ["weaver_shared.command_line", "sim", *own, *world, *name, "--stand"], nice=-5)
+    if options.robot != "hardware":
+        supervisor.add("the renderer", ["sim_agent.render_process", *known, *world, *name, *eyes], nice=2)
+    if eyes or options.has_cameras:
         cameras = ["cameras", "--wiring", str(wiring), "--wait", "60", *known]
         supervisor.add("the cameras", ["weaver_shared.command_line", *cameras], nice=2)
     supervisor.add("vision", ["weaver_shared.command_line", "robot", "--role", "vision", *known, *name], nice=2)
@@ -79,6 +94,14 @@ def _start(supervisor: Supervisor, options: argparse.Namespace, *, rendezvous: s
         console = ["--host", HOST, "--port", str(options.port), "--listen", rendezvous, "--connect", robot]
         supervisor.add("the console", ["weaver_shared.command_line", "console", *console], nice=-5)
     print(json.dumps({"bus": rendezvous, "pids": supervisor.pids}), file=sys.stderr, flush=True)
+
+
+def _has_cameras(wiring: Path) -> bool:
+    """Whether a wiring names any; what else is in it is not looked at here."""
+    try:
+        return "cameras" in tomllib.loads(wiring.read_text())
+    except (OSError, ValueError) as error:
+        raise ConfigurationError(f"wiring {wiring} can not be read: {error}") from error
 
 
 def _sees_gige() -> bool:
@@ -136,10 +159,14 @@ def _interrupt(_signal: int, _frame: types.FrameType | None) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="weaver up", description=__doc__)
     parser.add_argument(
-        "--robot", choices=("sim", "twin"), default="sim", help="twin: real drivers on emulated servos, IMU and power"
+        "--robot",
+        choices=("sim", "twin", "hardware"),
+        default="sim",
+        help="twin: real drivers on emulated servos, IMU, power and cameras; hardware: the real robot of --wiring",
     )
+    parser.add_argument("--wiring", type=Path, metavar="FILE", help="where a real robot's devices are")
     parser.add_argument("--description", default="weaver", help="robot description: a shipped name or a TOML file")
-    parser.add_argument("--robot-id", default="sim-1", help="name on the bus, unique per robot")
+    parser.add_argument("--robot-id", help="name on the bus, unique per robot (default: sim-1; hardware: weaver-1)")
     parser.add_argument("--world", default="testbed", help="flat, testbed, outdoor or stairs")
     parser.add_argument("--seed", type=int, default=1, help="seed of the world and of all sensor noise")
     parser.add_argument("--port", type=int, default=8080, help="TCP port of the page")

@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 POLYNOMIAL = 0x8005
+LONG = 64
+"""Bytes from which on a look-up of all at once is faster."""
 
 
 def _remainder(byte: int) -> int:
@@ -25,6 +27,8 @@ _TABLE = [_remainder(byte) for byte in range(256)]
 
 
 def crc16(data: bytes, start: int = 0) -> int:
+    if len(data) >= LONG and not start:
+        return int(crc16_of_rows(np.frombuffer(data, dtype=np.uint8)[np.newaxis])[0])
     value = start
     for byte in data:
         value = ((value << 8) & 0xFFFF) ^ _TABLE[(value >> 8) ^ byte]

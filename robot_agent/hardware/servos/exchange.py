@@ -25,6 +25,7 @@ class BusExchange:
         self.up = True
         """False: the port was lost, and nothing is asked until it is opened again."""
         self._ids = list(ids)
+        self._id_bytes = np.array(self._ids, dtype=np.uint8)
         self._baud = baud
         self.late = False
         """Answers to the question before this one came when nobody waited for them any more."""
@@ -76,10 +77,11 @@ class BusExchange:
     def tell(self, address: int, values: NDArray[np.generic], ranks: NDArray[np.int64]) -> None:
         """Write `values` (ranks,) to a register of several servos; nothing comes back."""
         size = values.dtype.itemsize
-        raw = values.tobytes()
+        parts = np.empty((len(ranks), 1 + size), dtype=np.uint8)
+        parts[:, 0] = self._id_bytes[ranks]
+        parts[:, 1:] = np.frombuffer(values.tobytes(), dtype=np.uint8).reshape(-1, size)
         message = address.to_bytes(2, "little") + size.to_bytes(2, "little")
-        parts = (bytes([self._ids[rank]]) + raw[at * size : (at + 1) * size] for at, rank in enumerate(ranks))
-        self._guarded(encode(BROADCAST, Instruction.SYNC_WRITE, message + b"".join(parts)))
+        self._guarded(encode(BROADCAST, Instruction.SYNC_WRITE, message + parts.tobytes()))
 
     def tell_goals(self, goals: NDArray[np.void]) -> None:
         """Write goals of WRITTEN_TYPE (servos of the bus,) to all of them."""

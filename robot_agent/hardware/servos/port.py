@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import select
 import termios
 import time
@@ -116,7 +117,8 @@ class SerialPort(PortHandler):  # type: ignore[misc]
 
     def receive(self) -> bytes:
         try:
-            return bytes(self._serial().read(_ALL))
+            # The package's own way asks the kernel three times more. Nothing may mean that the port is gone: it knows.
+            return os.read(self.fileno(), _ALL) or bytes(self._serial().read(_ALL))
         except (OSError, termios.error, serial.SerialException) as error:
             raise PortLostError(str(error)) from error
 
@@ -127,8 +129,13 @@ class SerialPort(PortHandler):  # type: ignore[misc]
             raise PortLostError(str(error)) from error
 
     def writePort(self, packet: Sequence[int]) -> int:
+        data = bytes(packet)
         try:
-            return int(self._serial().write(bytes(packet)))
+            with contextlib.suppress(BlockingIOError):
+                data = data[os.write(self.fileno(), data) :]
+            if data:
+                self._serial().write(data)
+            return len(packet)
         except (OSError, termios.error, serial.SerialException) as error:
             raise PortLostError(str(error)) from error
 
