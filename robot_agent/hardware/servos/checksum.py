@@ -1,7 +1,8 @@
 """CRC-16 of Dynamixel Protocol 2.0: polynomial 0x8005, first bit first, beginning with 0, nothing inverted.
 
 The polynomial is (x + 1)(x^15 + x + 1), so every damage of one, two or three bits, of any odd number of bits, and
-of a single burst up to 16 bits long is found for certain; of all other damage one in 65 536 passes.
+of a single burst up to 16 bits long is found for certain; of all other damage one in 65 536 passes. Bits count in the
+CRC's order, highest first; a line sends the lowest first, and what is 16 bits long there may be 24 here.
 """
 
 from __future__ import annotations
