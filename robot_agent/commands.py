@@ -29,6 +29,7 @@ from robot_agent.navigation.keep_out import Area, hit
 from robot_agent.orders import Orders
 from robot_agent.way_survey import NOTHING_ASKED, Survey, WaySurvey
 from weaver_shared.config.command import CommandLimits
+from weaver_shared.config.perception import PLANE_MODES, PerceptionConfig
 from weaver_shared.errors import InputError, WeaverError
 from weaver_shared.messages import (
     Answer,
@@ -39,6 +40,7 @@ from weaver_shared.messages import (
     LeaseState,
     MissionState,
     MotionOrders,
+    PerceptionOrder,
     Severity,
     TeleopFrame,
     Waypoint,
@@ -94,6 +96,7 @@ class CommandDesk:
         self._stop_level = ""
         self._stand = False
         self._gait: str = robot.gaits[0]
+        self._perception: str = PerceptionConfig().mode
         self._teleop: TeleopFrame | None = None
         self._teleop_heard_ns = 0
         self._teleop_sequence = -1
@@ -113,6 +116,7 @@ class CommandDesk:
             CommandName.SET_OVERRIDE: self._set_override,
             CommandName.CLEAR_OVERRIDE: self._clear_override,
             CommandName.SET_PRESET: self._set_preset,
+            CommandName.SET_PERCEPTION: self._set_perception,
             CommandName.SET_GAIT: self._set_gait,
             CommandName.START_CRUISE: self._moving(self._start_cruise),
             CommandName.STOP_CRUISE: self._stop_cruise,
@@ -287,6 +291,10 @@ class CommandDesk:
         with self._lock:
             return ForbiddenAreas(stamp_ns=stamp_ns, areas=self._areas)
 
+    def perception(self, stamp_ns: int) -> PerceptionOrder:
+        with self._lock:
+            return PerceptionOrder(stamp_ns=stamp_ns, mode=self._perception)
+
     def home(self) -> Waypoint:
         """Where the mission began, to which it returns."""
         with self._lock:
@@ -321,6 +329,8 @@ class CommandDesk:
                 CommandName.CLEAR_OVERRIDE,
                 CommandName.SET_PRESET,
             }
+            if self._robot.has_camera:
+                names.add(CommandName.SET_PERCEPTION)
             names |= {CommandName.SET_START_UP, CommandName.SET_POSE, CommandName.CLEAR_POSE, CommandName.SET_POSING}
             if self._stop_level:
                 if self._situation.settled:
@@ -526,6 +536,16 @@ class CommandDesk:
             self._overrides.choose(command.name)
         except WeaverError as error:
             return self._refuse(str(error))
+        return self._accept()
+
+    def _set_perception(self, command: Command) -> Answer:
+        """At any time: the ground is judged anew from the next picture on, and the gait follows at its own rates."""
+        if not self._robot.has_camera:
+            return self._refuse("this robot has no cameras; its feet alone judge the ground")
+        if command.name not in PLANE_MODES:
+            known = ", ".join(PLANE_MODES)
+            return self._refuse(f"perception mode {command.name!r:.40} is unknown; known are {known}")
+        self._perception = command.name
         return self._accept()
 
     def _set_gait(self, command: Command) -> Answer:

@@ -23,6 +23,7 @@ from robot_agent.telemetry import Telemetry
 from robot_agent.timing import LoopMeter
 from weaver_shared import codec, topics
 from weaver_shared.bus import Bus
+from weaver_shared.config.perception import PLANE_MODES, PerceptionConfig, PlaneMode
 from weaver_shared.latest import LatestSlot
 from weaver_shared.messages import (
     AdaptationReport,
@@ -31,6 +32,7 @@ from weaver_shared.messages import (
     Health,
     NavigationGoal,
     OdometryEstimate,
+    PerceptionOrder,
     Presence,
     Proprioception,
     RoutePlan,
@@ -206,10 +208,13 @@ class VisionLoop:
         self._meter = LoopMeter("vision", robot.camera.rate)
         self._cover = CoverWatch()
         self._goal: LatestSlot[NavigationGoal] = LatestSlot()
+        self._judging: PlaneMode = PerceptionConfig().mode
+        self._ordered: LatestSlot[PerceptionOrder] = LatestSlot()
         self._areas: LatestSlot[ForbiddenAreas] = LatestSlot()
         self._forbidden: tuple[Area, ...] = ()
         bus.subscribe(robot_id, topics.GOAL, lambda _id, _key, message: self._goal.put(message))
         bus.subscribe(robot_id, topics.AREAS, lambda _id, _key, message: self._areas.put(message))
+        bus.subscribe(robot_id, topics.PERCEPTION, lambda _id, _key, message: self._ordered.put(message))
         self._frames = 0
 
     def feel(self, sensed: Proprioception) -> None:
@@ -222,6 +227,7 @@ class VisionLoop:
         """Start, or start again, with the robot at this position and heading."""
         upright = Pose(rotation=rotation_z(yaw_of(world_from_body.rotation)), position=world_from_body.position)
         self._pipeline = VisionPipeline(self._robot, upright)
+        self._pipeline.judge_ground(self._judging)
         self._cover = CoverWatch()
 
     @property
@@ -259,6 +265,8 @@ class VisionLoop:
             publish(self._robot_id, topics.DESIRED_GAIT, tick.report)
         for tile in tick.tiles:
             publish(self._robot_id, topics.MAP_TILE, tile, i=tile.i, j=tile.j)
+        if tick.features is not None:
+            publish(self._robot_id, topics.FEATURES, tick.features, name="left")
         if tick.route is not None:
             publish(self._robot_id, topics.ROUTE, tick.route)
         if tick.look is not None:
@@ -267,16 +275,24 @@ class VisionLoop:
             event = self._cover.step(self._pipeline.map.cover, tick.terrain.stamp_ns)
             if event is not None:
                 publish(self._robot_id, topics.EVENT, event)
-        # Between pictures, so that a search on another thread sees one goal from beginning to end.
-        if self._pipeline is not None and (goal := self._goal.take()) is not None:
-            self._pipeline.seek(goal)
-        if (areas := self._areas.take()) is not None:
-            self._forbidden = areas.areas
-        if self._pipeline is not None:
-            self._pipeline.keep_out(self._forbidden)
+        self._take_orders()
         self._frames += 1
         if self._frames % 10 == 0:
             self._publish_health(tick.odometry)
+
+    def _take_orders(self) -> None:
+        """Between pictures, so that one on another thread sees the same orders from beginning to end."""
+        if self._pipeline is None:
+            return
+        if (goal := self._goal.take()) is not None:
+            self._pipeline.seek(goal)
+        if (areas := self._areas.take()) is not None:
+            self._forbidden = areas.areas
+        self._pipeline.keep_out(self._forbidden)
+        order = self._ordered.take()
+        if order is not None and order.mode in PLANE_MODES:
+            self._judging = order.mode
+            self._pipeline.judge_ground(self._judging)
 
     def _publish_health(self, odometry: OdometryEstimate) -> None:
         timing = self._meter.report(odometry.stamp_ns)

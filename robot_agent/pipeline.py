@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from robot_agent.adaptation import AdaptationController, ParameterOverrides
 from robot_agent.body import JointTargets, Trouble
+from robot_agent.feature_view import FeatureView
 from robot_agent.limits import JointGate
 from robot_agent.locomotion import Postures, WalkInput, WalkOutput
 from robot_agent.locomotion.footholds import orders_in_body
@@ -28,7 +29,7 @@ from robot_agent.safety import SafetySupervisor, Verdict
 from robot_agent.vigilance import Vigilance
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.navigation import RouteConfig
-from weaver_shared.config.perception import PerceptionConfig
+from weaver_shared.config.perception import PerceptionConfig, PlaneMode
 from weaver_shared.foot_contacts import FootContacts
 from weaver_shared.leg_batch import LegBatch
 from weaver_shared.messages import (
@@ -42,6 +43,7 @@ from weaver_shared.messages import (
     RoutePlan,
     StereoFrame,
     TerrainEstimate,
+    TrackedFeatures,
     Waypoint,
 )
 from weaver_shared.robots import RobotDescription
@@ -66,6 +68,7 @@ class VisionTick:
     tiles: tuple[MapTile, ...]
     route: RoutePlan | None = None  # when a way was looked for
     look: CloseLook | None = None  # when a close one was asked for
+    features: TrackedFeatures | None = None  # of the pictures that people are shown
 
 
 class VisionPipeline:
@@ -85,6 +88,7 @@ class VisionPipeline:
         self._planner = RoutePlanner(robot)
         self._goal: NavigationGoal | None = None
         self._areas: tuple[Area, ...] = ()
+        self._view = FeatureView(robot.camera.rate)
         self._perceive_every = perceive_every
         self._frames = 0
         self._adapted_ns: int | None = None
@@ -92,6 +96,10 @@ class VisionPipeline:
     @property
     def map(self) -> TerrainMap:
         return self._map
+
+    def judge_ground(self, mode: PlaneMode) -> None:
+        """As published or robustly, from the next picture on."""
+        self._perception.mode = mode
 
     def seek(self, goal: NavigationGoal | None) -> None:
         """Look for a way to this place from now on, or for none."""
@@ -109,10 +117,11 @@ class VisionPipeline:
         contacts = FootContacts.of(self._robot, legs)
         odometry = self._odometry.step(frame, imu, contacts, OwnLegs.of(self._robot, legs))
         self._frames += 1
+        features = self._view.of(frame, self._odometry.followed)
         self._map.remember(odometry)
         self._feel(contacts, legs, odometry)
         if self._frames % self._perceive_every and not closely:
-            return VisionTick(odometry=odometry, terrain=None, report=None, tiles=())
+            return VisionTick(odometry=odometry, terrain=None, report=None, tiles=(), features=features)
         ground_height = self._ground_height(contacts, odometry)
         perceived = self._perception.step(frame, odometry, ground_height, closely=closely)
         self._map.follow(self._odometry.settled_poses)
@@ -129,6 +138,7 @@ class VisionPipeline:
             tiles=tuple(self._map.changed_tiles(frame.stamp_ns)),
             route=self._route(odometry),
             look=CloseLook.of(perceived) if closely else None,
+            features=features,
         )
 
     def _ground_height(self, contacts: FootContacts | None, odometry: OdometryEstimate) -> float | None:

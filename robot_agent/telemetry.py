@@ -87,6 +87,7 @@ class Telemetry:
         self._ledger = PowerLedger(robot)
         self._pace = WalkingPace(robot.locomotion.largest_speed)
         self._mode = ""
+        self._perception = ""
         self._goal: NavigationGoal | None = None
 
     def publish(
@@ -148,6 +149,10 @@ class Telemetry:
         if self._due(topics.OUTLOOK):
             self._publish(topics.OUTLOOK, self._outlook(tick, desk))
         self._publish_goal(tick)
+        perception = desk.perception(tick.stamp_ns)
+        if self._due(topics.PERCEPTION) or perception.mode != self._perception:
+            self._perception = perception.mode
+            self._publish(topics.PERCEPTION, perception)
 
     def _outlook(self, tick: WalkTick, desk: CommandDesk) -> MissionOutlook:
         pace, home = self._pace, desk.home()

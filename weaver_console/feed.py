@@ -25,10 +25,12 @@ PERIODS_NS = {
     "truth/state": 100_000_000,
     "tele/map/tile/": 200_000_000,
     "tele/cam/": 200_000_000,
+    "tele/features/": 200_000_000,
 }
 """Least time between two values of a key, by the key's beginning; others go at once."""
 
-BULK = ("tele/map/", "tele/cam/")
+CAMERAS, FEATURES = "tele/cam/", "tele/features/"
+BULK = ("tele/map/", CAMERAS)
 LARGEST_BATCH = 256 * 1024
 """Bytes after which further tiles and pictures wait for the next batch unless less is asked for; the rest goes before
 them and always.
@@ -51,7 +53,7 @@ class Feed:
         self._due_ns: dict[str, int] = {}
         self._link_due_ns = 0
         self.robot: str | None = None
-        self.cameras = False
+        self.cameras = self.features = False
         self.bulk = 0  # bytes of tiles and pictures in the last batch
 
     def select(self, robot: str | None) -> None:
@@ -115,7 +117,9 @@ class Feed:
 
     def _wanted(self, key: str, now_ns: int) -> bool:
         due = now_ns + SLACK_NS >= self._due_ns.get(key, 0)
-        return due and (self.cameras or not key.startswith("tele/cam/"))
+        if key.startswith(FEATURES):
+            return due and self.features
+        return due and (self.cameras or not key.startswith(CAMERAS))
 
 
 @lru_cache(maxsize=4096)

@@ -29,6 +29,7 @@ WATCHED: tuple[Topic, ...] = (
     topics.HEALTH,
     topics.MAP_TILE,
     topics.CAMERA,
+    topics.FEATURES,
     topics.ODOMETRY,
     topics.TERRAIN,
     topics.MODE,

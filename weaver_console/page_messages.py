@@ -75,6 +75,7 @@ class Measure(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="
 
 class Watch(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="watch"):
     cameras: bool
+    features: bool = False
 
 
 class AskForControl(msgspec.Struct, frozen=True, kw_only=True, tag_field="type", tag="ask_for_control"):

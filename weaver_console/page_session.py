@@ -207,7 +207,7 @@ class PageSession:
             case p.View() | p.Measure():
                 self._wish_view(message)
             case p.Watch():
-                self._feed.cameras = message.cameras
+                self._feed.cameras, self._feed.features = message.cameras, message.features
             case p.AskForControl():
                 self._require_operator()
                 self._handover.ask(self, message.reason)

@@ -70,6 +70,7 @@ class AdaptationController:
             desired=parameters,
             applied=parameters,
             overridden=(),
+            perception=ahead.mode,
         )
 
     def _rule(self, worst: Ground, ahead: TerrainEstimate, felt: Ground | None) -> tuple[str, Ground]:

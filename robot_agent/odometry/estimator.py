@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.odometry.contacts import ContactStream
+from robot_agent.odometry.followed import Followed
 from robot_agent.odometry.front_end import FrontEnd
 from robot_agent.odometry.imu_stream import ImuStream, Inertia
 from robot_agent.odometry.landmarks import RIGHT, Eyes
@@ -141,6 +142,11 @@ class StereoInertialOdometry:
             stamp_ns: Pose(rotation=frames.rotation[k].copy(), position=frames.position[k].copy()) @ self._imu_from_body
             for k, stamp_ns in enumerate(self._window.stamps)
         }
+
+    @property
+    def followed(self) -> Followed:
+        """Where features were followed in the newest left picture; nothing in tracks recorded by others."""
+        return self._front_end.followed if isinstance(self._front_end, FrontEnd) else Followed.nothing()
 
     def step(
         self,

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from robot_agent.odometry.corner_grid import CornerGrid
 from robot_agent.odometry.depth_plane import fit_inverse_depth, inverse_depth
 from robot_agent.odometry.exposure import matched, picture_problem
+from robot_agent.odometry.followed import Followed
 from robot_agent.odometry.ground_warp import carried, ground_warp, inverted, warped
 from robot_agent.odometry.landmarks import LEFT, RIGHT
 from robot_agent.odometry.outlier_rejection import consistent, unit_rays
@@ -62,6 +63,8 @@ class FrontEnd:
         self._predictable = False  # the last picture's features were where they were expected
         self._kept: Picture | None = None  # an earlier picture of much the same view
         self._kept_pixel = np.zeros((0, 2))  # of the tracks in that picture, NaN of those found later
+        self._rejected = np.zeros((0, 2))  # px in the newest picture
+        self.followed = Followed.nothing()
 
     def step(self, frame: StereoFrame, left_from_previous: Pose, legs: OwnLegs | None = None) -> Tracks:
         """Follow features into `frame` and find new ones, none of them on the robot's own legs."""
@@ -83,6 +86,7 @@ class FrontEnd:
             observation[:, 1], matches = self._match(frame.left, matched(frame.right, frame.left), plane, right_cover)
             seen[matches] |= RIGHT
         self._previous = frame.left
+        self.followed = Followed(self._identity, self._pixel, seen == LEFT | RIGHT, self._rejected)
         return Tracks(
             identity=self._identity.copy(),
             observation=observation,
@@ -95,6 +99,7 @@ class FrontEnd:
         """Give up tracks the back end found to be wrong."""
         if len(identities):
             self._keep(~np.isin(self._identity, identities))
+            self.followed = self.followed.without(identities)
 
     def forget_all(self) -> None:
         self._keep(np.zeros(len(self._identity), dtype=np.bool_))
@@ -102,6 +107,7 @@ class FrontEnd:
         self._kept = None
         self._ground = None
         self._predictable = False
+        self.followed = Followed.nothing()
 
     def _keep(self, mask: Mask) -> None:
         self._identity, self._pixel, self._depth = self._identity[mask], self._pixel[mask], self._depth[mask]
@@ -109,6 +115,7 @@ class FrontEnd:
 
     def _follow(self, picture: Picture, left_from_previous: Pose, cover: Cover | None) -> float:
         """Move all tracks into the new picture; median motion in px."""
+        self._rejected = np.zeros((0, 2))
         if self._previous is None or len(self._pixel) == 0:
             return float("nan")
         before = normalise(self._left, self._pixel)
@@ -123,14 +130,15 @@ class FrontEnd:
         good = self._plausible(before, found, tracked, left_from_previous, cover)
         if good.sum() < FEW * len(good):
             # The prediction was wrong: from where the features were, at all levels, and without a warp.
-            again, tracked, _ = self._search(self._previous, picture, None, self._pixel, predicted=False)
-            plausible = self._plausible(before, again, tracked, left_from_previous, cover)
+            again, refound, _ = self._search(self._previous, picture, None, self._pixel, predicted=False)
+            plausible = self._plausible(before, again, refound, left_from_previous, cover)
             if plausible.sum() > good.sum():
-                found, good = again, plausible
+                found, good, tracked = again, plausible, refound
         old, self._pixel, self._depth = self._pixel, found, np.where(good, moved[:, 2], np.nan)
         self._predictable = 2 * int(good.sum()) > len(good) and _median_distance(found, guess, good) < (
             self._config.surprise
         )
+        self._rejected = found[tracked & ~good & self._inside(self._left, found)]
         flow = _median_distance(found, old, good)
         self._keep(good)
         return flow

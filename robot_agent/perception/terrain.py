@@ -47,6 +47,8 @@ class TerrainPerception:
             for matching in (config.matching, config.close_matching)
         )
         self.camera = self._working.camera
+        self.mode = config.mode
+        """Whether the ground ahead is judged as published or robustly; may be changed between pictures."""
 
     def step(
         self,
@@ -103,8 +105,8 @@ class TerrainPerception:
         coverage = float(known.mean())
         features, normal, result = np.full(7, np.nan), UP, Roughness.unknown()
         if coverage >= config.patch.min_coverage:
-            noise = float(np.sqrt(np.median(variance[known]))) if config.mode == "robust" else 0.0
-            plane = fit_plane(x[known], y[known], elevation[known], config.mode)
+            noise = float(np.sqrt(np.median(variance[known]))) if self.mode == "robust" else 0.0
+            plane = fit_plane(x[known], y[known], elevation[known], self.mode)
             features = patch_features(plane.residual(x, y, elevation), grid.cell, noise, config.features)
             area = (config.patch.far - config.patch.near) * config.patch.width
             normal, result = plane.normal, characterise(features, coverage, area, noise, config.features)
@@ -120,6 +122,7 @@ class TerrainPerception:
             plane_normal_in_world=normal,
             health=health.score,
             reason=reason,
+            mode=self.mode,
         )
 
     def _patch_in_world(self, world_from_body: Pose, world_from_camera: Pose) -> tuple[Array, Array]:

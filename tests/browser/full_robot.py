@@ -38,6 +38,7 @@ from weaver_shared.messages import (
     OdometryEstimate,
     OdometryQuality,
     ServoStates,
+    TrackedFeatures,
 )
 
 PATIENT_LEASE = 20.0  # s
@@ -78,7 +79,7 @@ class FullRobot(WireRobot):
             self.waypoints, self.next_waypoint, self.overrides = (), 0, {}
             self.place, self.commands, self.areas = np.zeros(2), [], ()
             self.quality, self.temperature, self.real_time_factor = OdometryQuality.GOOD, 41.0, 1.0
-            self.faults = ()
+            self.faults, self.perception = (), "robust"
 
     def _decide(self, command: Command) -> Answer:
         """A busy computer holds up pages for seconds; losing control by that is not what these tests are about."""
@@ -93,6 +94,8 @@ class FullRobot(WireRobot):
                 self.areas = areas_of(command)
             except InputError as error:
                 return Answer(accepted=False, reason=str(error))
+        elif command.command is CommandName.SET_PERCEPTION:
+            self.perception = command.name
         return super()._obey(command, now)
 
     def step(self, dt: float = 0.02) -> None:
@@ -103,6 +106,7 @@ class FullRobot(WireRobot):
             self._publish(topics.LOCOMOTION, self._locomotion(stamp_ns))
         if self.tick % 10 == 1:
             self.bus.publish(self.robot_id, topics.CAMERA, _picture(stamp_ns, self.tick), name="left")
+            self.bus.publish(self.robot_id, topics.FEATURES, _features(stamp_ns, self.tick), name="left")
             self._publish(topics.MOTION, self._motion(stamp_ns))
             self._publish(topics.SERVOS, self._servos(stamp_ns))
         if self.tick % 25 == 1:
@@ -245,6 +249,16 @@ class Ear:
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._bus, name)
+
+
+def _features(stamp_ns: int, tick: int) -> TrackedFeatures:
+    """The corners of what moves in the picture, at twice its size."""
+    k = np.arange(12)
+    x, y = (37 * k + 3 * (tick // 10)) % 320, (53 * k) % 240
+    corners = np.concatenate([np.stack([x, y], axis=1), np.stack([x + 18, y + 14], axis=1)]).astype(np.int16) * 2
+    return TrackedFeatures(
+        stamp_ns=stamp_ns, width=640, height=480, both_eyes=corners[:16], one_eye=corners[16:21], rejected=corners[21:]
+    )
 
 
 def _picture(stamp_ns: int, tick: int) -> CameraPicture:

@@ -73,6 +73,37 @@ def test_the_adaptation_shows_where_on_its_polynomials_the_robot_is(visit: Calla
     assert {command.seconds for command in asked} == {60.0}
 
 
+def test_paper_mode_is_asked_of_the_robot_and_shown_as_it_reports_it(visit: Callable[..., Any], stage: Any) -> None:
+    anna = visit()
+    mode = anna.page.get_by_role("group", name="Adaptation").get_by_role("switch", name="Paper mode")
+    assert mode.is_disabled()
+    anna.stand()
+    mode.click(force=True)
+    anna.page.get_by_text("The ground is judged as published").wait_for()
+    assert mode.is_checked()
+    assert stage.robot.perception == "paper"
+    anna.page.get_by_role("log", name="Events").get_by_text("set_perception: accepted").wait_for()
+    mode.press("Enter")
+    anna.page.get_by_text("The ground is judged robustly").wait_for()
+    assert not mode.is_checked()
+
+
+def test_tracked_features_are_drawn_over_the_picture_when_asked_for(
+    visit: Callable[..., Any], picture: Callable[[Any, str], None]
+) -> None:
+    anna = visit()
+    anna.page.get_by_role("img", name="Picture of camera left").wait_for()
+    marks = anna.page.get_by_role("img", name="Tracked features: 16 in both eyes, 5 in one eye, 3 rejected")
+    assert marks.count() == 0
+    anna.page.get_by_role("switch", name="Tracked features").click(force=True)
+    marks.wait_for()
+    circles, crosses = (marks.locator(f"path.feature-{kind}").get_attribute("d") for kind in ("both_eyes", "rejected"))
+    assert (circles.count("M"), crosses.count("M")) == (16, 3)
+    assert "a" in circles
+    assert "a" not in crosses
+    picture(anna, "features")
+
+
 def test_joints_alerts_and_pictures_are_there(
     visit: Callable[..., Any], stage: Any, picture: Callable[[Any, str], None]
 ) -> None:

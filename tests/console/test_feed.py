@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 from running_console import Field
 
@@ -99,6 +100,24 @@ def test_pictures_are_only_sent_to_those_who_watch(field: Field, feed: Feed):
     feed.cameras = True
     (sent,) = _values(feed.collect(), "tele/cam/left")
     assert sent["value"]["jpeg"] == "/9g="
+
+
+def test_features_are_only_sent_to_those_who_want_them_drawn(field: Field, feed: Feed):
+    from weaver_shared import topics
+    from weaver_shared.messages import TrackedFeatures
+
+    places = np.array([[3, 4]], dtype=np.int16)
+    features = TrackedFeatures(
+        stamp_ns=1, width=640, height=480, both_eyes=places, one_eye=places[:0], rejected=places[:0]
+    )
+    field.robot()
+    field.bus.publish("weaver", topics.FEATURES, features, name="left")
+    feed.select("weaver")
+    feed.cameras = True
+    assert not _values(feed.collect(), "tele/features/left")
+    feed.features = True
+    (sent,) = _values(feed.collect(), "tele/features/left")
+    assert sent["value"]["both_eyes"] == [[3, 4]]
 
 
 def test_a_restart_voids_what_was_told(field: Field, feed: Feed):

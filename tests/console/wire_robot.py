@@ -82,6 +82,7 @@ class WireRobot:
         self.waypoints: tuple[Waypoint, ...] = ()
         self.phase, self.next_waypoint = "empty", 0
         self.overrides: dict[str, float] = {}
+        self.perception = "robust"
         self.place = np.zeros(2)
         self.velocity = np.zeros(3)
         self.tick = 0
@@ -278,6 +279,7 @@ class WireRobot:
             desired=desired,
             applied=applied,
             overridden=tuple(self.overrides),
+            perception=self.perception,
         )
 
     def _gait(self, stamp_ns: int) -> GaitState:

@@ -264,6 +264,24 @@ def test_a_preset_is_chosen_by_its_name(ada: Operator) -> None:
     assert "known are usual" in ada.says(CommandName.SET_PRESET, name="reckless").reason
 
 
+def test_the_ground_is_judged_as_the_holder_says(desk: CommandDesk, ada: Operator) -> None:
+    assert desk.perception(5).mode == "robust"
+    assert ada.says(CommandName.SET_PERCEPTION, name="paper").accepted
+    assert desk.perception(5).mode == "paper"
+    assert "known are robust, paper" in ada.says(CommandName.SET_PERCEPTION, name="rosy").reason
+    assert not Operator(desk, "bob").says(CommandName.SET_PERCEPTION, name="robust").accepted
+    assert desk.perception(5).mode == "paper"
+
+
+def test_a_robot_without_cameras_has_no_perception_to_choose(clock: SimulatedClock) -> None:
+    desk = CommandDesk(robot=load_robot("max"), overrides=ParameterOverrides(), wall_clock_ns=clock.now_ns)
+    observe(desk)
+    ada = Operator(desk, "ada")
+    ada.says(CommandName.TAKE_CONTROL)
+    assert "has no cameras" in ada.says(CommandName.SET_PERCEPTION, name="paper").reason
+    assert CommandName.SET_PERCEPTION not in desk.allowed()
+
+
 def test_an_unknown_gait_is_refused_with_the_known_ones(desk: CommandDesk, ada: Operator) -> None:
     assert "tripod" in ada.says(CommandName.SET_GAIT, name="gallop").reason
     assert ada.says(CommandName.SET_GAIT, name="wave").accepted

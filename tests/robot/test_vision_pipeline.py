@@ -6,13 +6,17 @@ import numpy as np
 import pytest
 
 from robot_agent.evaluation.textured_ground import TexturedGround
+from robot_agent.loops import VisionLoop
 from robot_agent.mapping import TerrainMap
 from robot_agent.perception import FeltGround
 from robot_agent.pipeline import FELT_LIFETIME_NS, VisionPipeline, VisionTick
 from robot_agent.vision.camera import StereoCalibration
+from weaver_shared import topics
+from weaver_shared.bus import MemoryBus
+from weaver_shared.config.perception import PlaneMode
 from weaver_shared.frames import GRAVITY
 from weaver_shared.leg_batch import LegBatch
-from weaver_shared.messages import ImuBatch
+from weaver_shared.messages import AdaptationReport, ImuBatch, PerceptionOrder
 from weaver_shared.robots import load_robot
 from weaver_shared.transforms import Pose
 
@@ -29,6 +33,9 @@ class Standing:
         self._pipeline = VisionPipeline(robot, self._world_from_body, perceive_every=perceive_every)
         self._at_rest = robot.imu.body_from_imu.rotation.T @ np.array([0.0, 0.0, GRAVITY])
         self._frames = 0
+
+    def judge_ground(self, mode: PlaneMode) -> None:
+        self._pipeline.judge_ground(mode)
 
     def step(self, *, closely: bool = False, legs: LegBatch | None = None) -> VisionTick:
         self._frames += 1
@@ -65,6 +72,41 @@ def test_a_close_look_is_taken_of_a_picture_that_would_be_left_out() -> None:
     assert left_out.look.cells > 2000
     assert left_out.look.sigma < 0.002
     assert standing.step().look is None
+
+
+def test_features_are_shown_of_the_pictures_that_people_see_where_they_were_followed() -> None:
+    standing = Standing(perceive_every=2)
+    shown = [tick.features for tick in (standing.step() for _ in range(12))]
+    assert [number + 1 for number, features in enumerate(shown) if features is not None] == [1, 2, 4, 6, 8, 10, 12]
+    features = shown[11]
+    assert features is not None
+    assert features.stamp_ns == 12 * FRAME_NS
+    assert len(features.both_eyes) > 50
+    assert ((features.both_eyes >= 0) & (features.both_eyes < [features.width, features.height])).all()
+
+
+def test_the_ground_is_judged_as_ordered_from_the_next_picture_on() -> None:
+    standing = Standing(perceive_every=1)
+    first = standing.step()
+    standing.judge_ground("paper")
+    second = standing.step()
+    assert [tick.report.perception for tick in (first, second) if tick.report] == ["robust", "paper"]
+    assert [tick.terrain.mode for tick in (first, second) if tick.terrain] == ["robust", "paper"]
+
+
+def test_the_vision_loop_judges_the_ground_as_the_walk_loop_says() -> None:
+    bus, robot = MemoryBus(), load_robot("weaver")
+    told: list[AdaptationReport] = []
+    bus.subscribe("w", topics.DESIRED_GAIT, lambda _id, _key, report: told.append(report))
+    loop = VisionLoop(robot_id="w", robot=robot, bus=bus)
+    pose = Pose(rotation=np.eye(3), position=np.array([0.0, 0.0, 0.165]))
+    ground = TexturedGround(StereoCalibration.of_robot(robot), seed=2)
+    loop.begin(pose)
+    for number in range(1, 7):
+        loop.step(ground.look(number * FRAME_NS, number, pose))
+        if number == 2:
+            bus.publish("w", topics.PERCEPTION, PerceptionOrder(stamp_ns=0, mode="paper"))
+    assert [report.perception for report in told] == ["robust", "paper", "paper"]
 
 
 def test_a_picture_without_a_reading_of_the_legs_keeps_what_was_felt(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,12 +1,13 @@
 """Settings of the stereo terrain perception (ICRA'17 III-D)."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field
 
 Positive = Annotated[float, Field(gt=0.0)]
 Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
 PlaneMode = Literal["robust", "paper"]
+PLANE_MODES: tuple[PlaneMode, ...] = get_args(PlaneMode)
 
 
 class _Settings(BaseModel):

@@ -20,6 +20,7 @@ from weaver_shared.messages.estimation import (
     OdometryQuality,
     RoutePlan,
     TerrainEstimate,
+    TrackedFeatures,
     Waypoint,
 )
 from weaver_shared.messages.recording import (
@@ -53,6 +54,7 @@ from weaver_shared.messages.telemetry import (
     MissionState,
     ModeState,
     MotionOrders,
+    PerceptionOrder,
     PowerState,
     Presence,
     RobotState,
@@ -90,6 +92,7 @@ __all__ = [
     "OdometryEstimate",
     "OdometryQuality",
     "PartRequest",
+    "PerceptionOrder",
     "PowerState",
     "Presence",
     "Proprioception",
@@ -108,6 +111,7 @@ __all__ = [
     "StereoFrame",
     "TeleopFrame",
     "TerrainEstimate",
+    "TrackedFeatures",
     "TruthState",
     "Waypoint",
 ]

@@ -24,6 +24,7 @@ class CommandName(StrEnum):
     SET_OVERRIDE = "set_override"  # name, value, seconds
     CLEAR_OVERRIDE = "clear_override"  # name
     SET_PRESET = "set_preset"  # name of a preset of the adaptation
+    SET_PERCEPTION = "set_perception"  # name: robust, paper; how the ground ahead is judged
     SET_GAIT = "set_gait"  # name
     START_CRUISE = "start_cruise"  # name: forward, left (m/s), turn (rad/s), value; or stick: as it is now; seconds
     STOP_CRUISE = "stop_cruise"

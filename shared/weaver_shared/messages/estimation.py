@@ -59,6 +59,18 @@ class OdometryEstimate:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class TrackedFeatures:
+    """Where the odometry followed features in one picture, in px of it from its upper left corner; for people."""
+
+    stamp_ns: int  # of the picture
+    width: int  # px of the picture
+    height: int
+    both_eyes: NDArray[np.int16]  # (n, 2) x, y; found in the other eye's picture too
+    one_eye: NDArray[np.int16]  # (m, 2)
+    rejected: NDArray[np.int16]  # (k, 2) found again, but not where the ground can have moved to
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class TerrainEstimate:
     """Roughness and step height of the patch ahead (ICRA'17 eqs. 7, 8), both 0..1; NaN where unknown."""
 
@@ -71,6 +83,7 @@ class TerrainEstimate:
     plane_normal_in_world: Array  # (3,)
     health: float  # 0..1, how far the pictures can be trusted
     reason: str
+    mode: str = ""  # of the perception that found it: "robust" or "paper"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,6 +113,7 @@ class AdaptationReport:
     applied: GaitParameters  # after overrides and rate limits
     overridden: tuple[str, ...]  # names of GaitParameters fields an operator holds
     preset: str = ""  # by which an operator changes the adaptation; empty before the walk loop has filled it in
+    perception: str = ""  # mode of the perception whose ground this is: "robust", "paper"; empty while none is heard
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -85,6 +85,14 @@ class ForbiddenAreas:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class PerceptionOrder:
+    """How the operator wants the ground judged; from the walk loop, which knows who is in control, to vision."""
+
+    stamp_ns: int
+    mode: str  # "robust" or "paper"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class MissionOutlook:
     """What time and energy a mission takes are estimated from, 2 Hz."""
 

@@ -4,6 +4,7 @@ import { useState } from "react";
 import { Panel } from "../components/Panel";
 import { GroundReadings } from "./GroundReadings";
 import { ParameterControl } from "./ParameterControl";
+import { PerceptionMode } from "./PerceptionMode";
 import { PresetPicker } from "./PresetPicker";
 import { useParameters } from "./parameters";
 
@@ -33,6 +34,7 @@ export function AdaptationPanel() {
     >
       <GroundReadings />
       <PresetPicker />
+      <PerceptionMode />
       {useParameters().map((parameter) => (
         <ParameterControl key={parameter.name} parameter={parameter} seconds={Number(seconds)} />
       ))}

@@ -1,10 +1,10 @@
 /** Calibrating the robot's cameras and its IMU, guided: what is seen, what is missing, solving, the report. */
 import { useEffect, useState } from "react";
 import { spokenAge } from "../console/freshness";
-import { send } from "../console/outbox";
 import { type Stamped, useConsole } from "../console/store";
 import { useFreshness, useLatest } from "../console/useLatest";
 import type { CalibrationState } from "../protocol/messages";
+import { watch } from "../scene/watching";
 import { GuidePanel } from "./GuidePanel";
 import { MotionPanel } from "./MotionPanel";
 import { ResultPanel } from "./ResultPanel";
@@ -17,11 +17,10 @@ const PICTURE = "tele/cam/calibration";
 export default function CalibrationPage() {
   const state = useLatest(STATE);
   const robot = useConsole((page) => page.selected);
-  const connected = useConsole((page) => page.connection === "open");
   const [choice, setChoice] = useState<Choice>({ part: state?.part ?? "cameras", lenses: "" });
   useEffect(() => {
-    send({ type: "watch", cameras: true });
-  }, [connected, robot]);
+    watch({ cameras: true, features: false });
+  }, []);
   return (
     <main className="calibration">
       <nav className="calibration-head">

@@ -9,7 +9,8 @@ interface Preferences {
   layer: LayerName;
   /** The large picture; the others are small beside it. */
   mainView: MainView;
-  cameras: boolean;
+  /** Draw the odometry's features over the cameras' pictures. */
+  features: boolean;
   camera: string | null;
   view: { follow: boolean; truth: boolean; frusta: boolean; trail: boolean; contours: boolean; torques: boolean };
 }
@@ -19,7 +20,7 @@ export const usePreferences = create<Preferences>()(
     (): Preferences => ({
       layer: "elevation",
       mainView: "scene",
-      cameras: true,
+      features: false,
       camera: null,
       view: { follow: true, truth: false, frusta: false, trail: true, contours: false, torques: false },
     }),

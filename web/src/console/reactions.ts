@@ -4,6 +4,7 @@ import { type TileMessage } from "../map/tiles";
 import { useDraft } from "../mission/draftStore";
 import type { AdaptationReport, ForbiddenAreas, GaitState, MissionState, RobotState } from "../protocol/messages";
 import type { Incoming } from "../protocol/wire";
+import { publishWatched } from "../scene/watching";
 import { settleAnswer } from "./commands";
 import { rememberOperator } from "./identity";
 import { history, terrain } from "./live";
@@ -93,11 +94,11 @@ function changeRobot(robot: string | null): void {
 /** A new connection knows nothing of what this page showed before. */
 function restore(): void {
   const { selected, hello } = useConsole.getState();
-  const { layer, cameras, view } = usePreferences.getState();
+  const { layer, view } = usePreferences.getState();
   if (selected !== null) selectRobot(selected);
   if (hello?.layers.includes(layer)) send({ type: "layer", name: layer });
   send({ type: "view", ...view });
-  send({ type: "watch", cameras });
+  publishWatched();
   useDraft.getState().publish();
   publishMeasure();
 }

@@ -29,6 +29,7 @@ export const COMMAND_NAMES = [
   "set_override",
   "clear_override",
   "set_preset",
+  "set_perception",
   "set_gait",
   "start_cruise",
   "stop_cruise",
@@ -190,6 +191,8 @@ export interface AdaptationReport {
   applied: GaitParameters;
   overridden: string[];
   preset: string;
+  /** How the ground ahead is judged; "" while vision is silent. */
+  perception: "" | "robust" | "paper";
 }
 
 export interface PowerState {
@@ -233,6 +236,16 @@ export interface EventMessage {
   severity: Severity;
   source: string;
   text: string;
+}
+
+/** px of the picture of `stamp_ns`, from its upper left corner. */
+export interface TrackedFeatures {
+  stamp_ns: number;
+  width: number;
+  height: number;
+  both_eyes: [x: number, y: number][];
+  one_eye: [x: number, y: number][];
+  rejected: [x: number, y: number][];
 }
 
 export interface CalibrationWish {

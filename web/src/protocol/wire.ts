@@ -172,7 +172,7 @@ export type Outgoing =
       torques?: boolean;
     }
   | { type: "measure"; places: readonly Waypoint[] }
-  | { type: "watch"; cameras: boolean }
+  | { type: "watch"; cameras: boolean; features: boolean }
   | { type: "ping"; t: number }
   | { type: "taken"; frames: number };
 
