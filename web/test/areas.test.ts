@@ -1,5 +1,6 @@
 import { beforeEach, describe, expect, it } from "vitest";
 import { canFinish, cornerAt, finishArea, followAreas, resetAreas, startArea, undoCorner, useAreas } from "../src/areas/areaStore";
+import { useDraft } from "../src/mission/draftStore";
 import { forbiddenReason, hitArea } from "../src/areas/geometry";
 
 const at = (x: number, y: number) => ({ x, y });
@@ -29,7 +30,11 @@ it("a refused way is told with its waypoint and area", () => {
 });
 
 describe("drawing an area", () => {
-  beforeEach(resetAreas);
+  beforeEach(() => {
+    resetAreas();
+    useDraft.getState().reset();
+  });
+  const areas = () => useDraft.getState().draft.areas;
 
   it("takes corners only while it is drawn, and three at least", () => {
     expect(cornerAt(at(0, 0))).toBe(false);
@@ -38,7 +43,7 @@ describe("drawing an area", () => {
     expect(canFinish(useAreas.getState())).toBe(false);
     cornerAt(at(1, 1));
     finishArea();
-    expect(useAreas.getState().areas).toEqual([[at(0, 0), at(1, 0), at(1, 1)]]);
+    expect(areas()).toEqual([[at(0, 0), at(1, 0), at(1, 1)]]);
     expect(useAreas.getState().drawing).toBeNull();
   });
 
@@ -53,11 +58,11 @@ describe("drawing an area", () => {
 
   it("follows the robot until there are changes of its own", () => {
     followAreas([square]);
-    expect(useAreas.getState().areas).toEqual([square]);
+    expect(areas()).toEqual([square]);
     startArea();
     for (const corner of [at(7, 0), at(8, 0), at(8, 1)]) cornerAt(corner);
     finishArea();
     followAreas([]);
-    expect(useAreas.getState().areas).toHaveLength(2);
+    expect(areas()).toHaveLength(2);
   });
 });

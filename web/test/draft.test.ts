@@ -1,9 +1,11 @@
 import { describe, expect, it } from "vitest";
-import { type Draft, type DraftAction, EMPTY_DRAFT, reduceDraft, sameWaypoints } from "../src/mission/draft";
+import { type Draft, type DraftAction, EMPTY_DRAFT, reduceDraft } from "../src/mission/draft";
+import { sameWaypoints } from "../src/mission/waypoints";
 
 const at = (x: number, y = 0) => ({ x, y });
 const after = (...actions: DraftAction[]) => actions.reduce(reduceDraft, EMPTY_DRAFT);
 const xs = (draft: Draft) => draft.waypoints.map((waypoint) => waypoint.x);
+const pit = [at(0, 1), at(1, 1), at(1, 2)];
 const three: DraftAction[] = [1, 2, 3].map((x) => ({ type: "add", waypoint: at(x) }));
 
 describe("a mission draft", () => {
@@ -26,10 +28,13 @@ describe("a mission draft", () => {
   });
 
   it("can take a loaded mission back", () => {
-    const loaded = after(...three, { type: "load", waypoints: [at(7.0004)] });
+    const loaded = after(...three, { type: "load", waypoints: [at(7.0004)], areas: [pit] });
     expect(xs(loaded)).toEqual([7]);
-    expect(xs(reduceDraft(loaded, { type: "undo" }))).toEqual([1, 2, 3]);
-    expect(reduceDraft(loaded, { type: "load", waypoints: [at(7)] })).toBe(loaded);
+    expect(loaded.areas).toEqual([pit]);
+    const before = reduceDraft(loaded, { type: "undo" });
+    expect(xs(before)).toEqual([1, 2, 3]);
+    expect(before.areas).toEqual([]);
+    expect(reduceDraft(loaded, { type: "load", waypoints: [at(7)], areas: [pit] })).toBe(loaded);
   });
 
   it("ignores places that do not exist", () => {
@@ -48,19 +53,32 @@ describe("a mission draft", () => {
   it("undoes every edit back to nothing, and redoes them to the same list", () => {
     const edits: DraftAction[] = [
       ...three,
+      { type: "forbid", area: pit },
       { type: "reorder", from: 2, to: 0 },
+      { type: "forbid", area: pit.map(({ x, y }) => at(x + 5, y)) },
+      { type: "allow", index: 0 },
       { type: "delete", index: 1 },
       { type: "place", index: 0, waypoint: at(4.5) },
       { type: "clear" },
     ];
     let draft = after(...edits);
-    const end = draft.waypoints;
+    const end = draft;
     for (const _ of edits) draft = reduceDraft(draft, { type: "undo" });
     expect(draft.waypoints).toEqual([]);
+    expect(draft.areas).toEqual([]);
     expect(draft.past).toEqual([]);
     for (const _ of edits) draft = reduceDraft(draft, { type: "redo" });
-    expect(draft.waypoints).toEqual(end);
+    expect([draft.waypoints, draft.areas]).toEqual([end.waypoints, end.areas]);
+    expect(end.areas).toHaveLength(1);
     expect(draft.future).toEqual([]);
+  });
+
+  it("brings a deleted area back, and leaves waypoints placed since alone", () => {
+    const forbidden = after({ type: "forbid", area: pit }, three[0]!, { type: "allow", index: 0 });
+    expect(forbidden.areas).toEqual([]);
+    const back = reduceDraft(forbidden, { type: "undo" });
+    expect([back.areas, xs(back)]).toEqual([[pit], [1]]);
+    expect(reduceDraft(back, { type: "allow", index: 1 })).toBe(back);
   });
 
   it("forgets what was undone once something else is done", () => {

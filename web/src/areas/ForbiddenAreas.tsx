@@ -1,10 +1,13 @@
 /** Ground that missions must keep out of: drawn corner by corner on map or 3-D view, or by keys. */
 import { Button } from "@mantine/core";
-import { canFinish, deleteArea, finishArea, startArea, undoCorner, useAreas } from "./areaStore";
+import { useDraft } from "../mission/draftStore";
+import { canFinish, finishArea, startArea, undoCorner, useAreas } from "./areaStore";
 
 export function ForbiddenAreas() {
   const state = useAreas();
-  const { areas, drawing } = state;
+  const { drawing } = state;
+  const { draft, dispatch } = useDraft();
+  const { areas } = draft;
   return (
     <div className="areas">
       <div className="button-row">
@@ -38,7 +41,7 @@ export function ForbiddenAreas() {
                 size="compact-xs"
                 variant="default"
                 aria-label={`Delete area ${index + 1}`}
-                onClick={() => deleteArea(index)}
+                onClick={() => dispatch({ type: "allow", index })}
               >
                 Delete
               </Button>

@@ -1,12 +1,11 @@
-/** Forbidden areas as the operator draws them; the robot's own copy lives in state/areas. */
+/** Drawing of forbidden areas; those that are drawn are part of the mission's draft and its history. */
 import { create } from "zustand";
-import { sameWaypoints } from "../mission/draft";
 import { useDraft } from "../mission/draftStore";
+import { rounded } from "../mission/waypoints";
 import type { Waypoint } from "../protocol/messages";
-import type { Area } from "./geometry";
+import { type Area, sameAreas } from "./area";
 
 interface AreaStore {
-  areas: readonly Area[];
   /** Corners of the one being drawn; null while none is. */
   drawing: Area | null;
   /** The robot's areas when last heard of. */
@@ -14,7 +13,7 @@ interface AreaStore {
 }
 
 const LEAST_CORNERS = 3;
-const EMPTY: AreaStore = { areas: [], drawing: null, onRobot: [] };
+const EMPTY: AreaStore = { drawing: null, onRobot: [] };
 
 export const useAreas = create<AreaStore>(() => EMPTY);
 
@@ -23,10 +22,10 @@ export function startArea(): void {
 }
 
 /** Takes a corner if an area is being drawn. */
-export function cornerAt({ x, y }: Waypoint): boolean {
+export function cornerAt(place: Waypoint): boolean {
   const { drawing } = useAreas.getState();
   if (drawing === null) return false;
-  change({ drawing: [...drawing, { x: round(x), y: round(y) }] });
+  draw([...drawing, rounded(place)]);
   return true;
 }
 
@@ -36,43 +35,31 @@ export function canFinish({ drawing }: AreaStore): boolean {
 
 export function finishArea(): void {
   const state = useAreas.getState();
-  if (state.drawing !== null && canFinish(state)) change({ areas: [...state.areas, state.drawing], drawing: null });
+  if (state.drawing === null || !canFinish(state)) return;
+  useAreas.setState({ drawing: null });
+  useDraft.getState().dispatch({ type: "forbid", area: state.drawing });
 }
 
 /** Takes back the last corner; without any gives up drawing. */
 export function undoCorner(): void {
   const { drawing } = useAreas.getState();
-  if (drawing !== null) change({ drawing: drawing.length > 0 ? drawing.slice(0, -1) : null });
-}
-
-export function deleteArea(index: number): void {
-  change({ areas: useAreas.getState().areas.toSpliced(index, 1) });
-}
-
-export function loadAreas(areas: readonly Area[]): void {
-  change({ areas, drawing: null });
+  if (drawing !== null) draw(drawing.length > 0 ? drawing.slice(0, -1) : null);
 }
 
 /** Takes over what the robot holds, unless there are changes of our own that it has not got. */
 export function followAreas(onRobot: readonly Area[]): void {
-  const { areas, onRobot: before } = useAreas.getState();
+  const { onRobot: before } = useAreas.getState();
   if (sameAreas(onRobot, before)) return;
-  change(sameAreas(areas, before) ? { onRobot, areas: onRobot } : { onRobot });
+  useAreas.setState({ onRobot });
+  const { draft, dispatch } = useDraft.getState();
+  if (sameAreas(draft.areas, before)) dispatch({ type: "adopt", areas: onRobot });
 }
 
 export function resetAreas(): void {
   useAreas.setState(EMPTY);
 }
 
-export function sameAreas(a: readonly Area[], b: readonly Area[]): boolean {
-  return a.length === b.length && a.every((area, k) => sameWaypoints(area, b[k]!));
-}
-
-function change(changed: Partial<AreaStore>): void {
-  useAreas.setState(changed);
+function draw(drawing: Area | null): void {
+  useAreas.setState({ drawing });
   useDraft.getState().publish();
-}
-
-function round(value: number): number {
-  return Math.round(1000 * value) / 1000;
 }

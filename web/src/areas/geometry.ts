@@ -1,7 +1,6 @@
 /** Whether a way comes into forbidden ground, as the robot judges it (robot_agent/forbidden_areas.py). Pure. */
 import type { Waypoint } from "../protocol/messages";
-
-export type Area = readonly Waypoint[];
+import type { Area } from "./area";
 
 /** Why the way from `start` through the waypoints is refused; null when it is not. `halfWidth` in m. */
 export function forbiddenReason(

@@ -1,5 +1,5 @@
 /** Forbidden ground on the 2-D map: red, outlined and crossed by its number; the one being drawn is open. */
-import type { Area } from "../areas/geometry";
+import type { Area } from "../areas/area";
 import { type View, toScreen } from "./projection";
 import { type Context, type Ink, circle, polyline, strokeWithHalo } from "./strokes";
 

@@ -1,5 +1,5 @@
 /** The whole picture of the 2-D map, back to front. */
-import type { Area } from "../areas/geometry";
+import type { Area } from "../areas/area";
 import { terrain, history } from "../console/live";
 import type { Freshness } from "../console/freshness";
 import type { MissionState, RobotState, TruthState, Waypoint } from "../protocol/messages";

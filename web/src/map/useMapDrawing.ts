@@ -70,7 +70,7 @@ export function useMapDrawing(
       const { view: options } = usePreferences.getState();
       const contours = options.contours;
       const measure = useMeasure.getState().places;
-      const { areas, drawing } = useAreas.getState();
+      const { drawing } = useAreas.getState();
       const halfWidth = selectedRobot(state)?.motion?.half_width ?? 0;
       const shown = [
         view.current,
@@ -82,7 +82,6 @@ export function useMapDrawing(
         truth,
         contours,
         measure,
-        areas,
         drawing,
         halfWidth,
         terrain.version,
@@ -107,7 +106,7 @@ export function useMapDrawing(
         contours,
         halfWidth,
         measure,
-        areas,
+        areas: draft.areas,
         drawing,
         ink,
       });

@@ -1,6 +1,7 @@
 /** Start, pause, skip, return and clear. Starting sends what the robot has not got yet. */
 import { Button } from "@mantine/core";
-import { sameAreas, useAreas } from "../areas/areaStore";
+import { sameAreas } from "../areas/area";
+import { useAreas } from "../areas/areaStore";
 import { forbiddenReason } from "../areas/geometry";
 import { CommandButton } from "../components/CommandButton";
 import { command } from "../console/commands";
@@ -12,7 +13,8 @@ import { useDraft } from "./draftStore";
 
 /** The robot gets the areas before the mission, so that it judges the mission by them. */
 async function uploadAreas(): Promise<boolean> {
-  const { areas, onRobot } = useAreas.getState();
+  const { areas } = useDraft.getState().draft;
+  const { onRobot } = useAreas.getState();
   if (sameAreas(areas, onRobot)) return true;
   const name = areas.map((area) => area.length).join(" ");
   return (await command("set_areas", { name, waypoints: areas.flat() })).accepted;
@@ -21,7 +23,7 @@ async function uploadAreas(): Promise<boolean> {
 /** Why the edited way is refused here already; the robot judges for itself once more. */
 function useForbidden(): string | null {
   const waypoints = useDraft((state) => state.draft.waypoints);
-  const areas = useAreas((state) => state.areas);
+  const areas = useDraft((state) => state.draft.areas);
   const halfWidth = useConsole((state) => selectedRobot(state)?.motion?.half_width ?? 0);
   const mission = useLatest("state/mission");
   const position = useLatest("tele/state")?.position_in_world;

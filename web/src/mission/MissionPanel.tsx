@@ -1,12 +1,12 @@
 /** Editing, sending and watching a mission. */
 import { Button } from "@mantine/core";
 import { ForbiddenAreas } from "../areas/ForbiddenAreas";
-import { useAreas, sameAreas } from "../areas/areaStore";
+import { sameAreas } from "../areas/area";
+import { useAreas } from "../areas/areaStore";
 import { Panel } from "../components/Panel";
 import { fixed } from "../components/format";
 import { useLatest } from "../console/useLatest";
 import { positionOf } from "../map/strokes";
-import { sameWaypoints } from "./draft";
 import { useDraft } from "./draftStore";
 import { MissionButtons } from "./MissionButtons";
 import { MissionOutlook } from "./MissionOutlook";
@@ -14,13 +14,14 @@ import { MissionProgress } from "./MissionProgress";
 import { pathLength } from "./path";
 import { SavedMissions } from "./SavedMissions";
 import { WaypointList } from "./WaypointList";
+import { sameWaypoints } from "./waypoints";
 
 export function MissionPanel() {
   const { draft, dispatch } = useDraft();
   const onRobot = useLatest("state/mission")?.waypoints;
   const start = useLatest("tele/state")?.position_in_world;
-  const { areas, onRobot: areasOnRobot } = useAreas();
-  const unsent = !sameWaypoints(draft.waypoints, onRobot ?? []) || !sameAreas(areas, areasOnRobot);
+  const areasOnRobot = useAreas((state) => state.onRobot);
+  const unsent = !sameWaypoints(draft.waypoints, onRobot ?? []) || !sameAreas(draft.areas, areasOnRobot);
   const length = pathLength(draft.waypoints, start === undefined ? null : positionOf(start));
   return (
     <Panel

@@ -3,7 +3,6 @@ import { Button, TextInput } from "@mantine/core";
 import { type FormEvent, useCallback, useEffect, useState } from "react";
 import { selectedRobot } from "../console/control";
 import { notify } from "../console/notices";
-import { loadAreas, useAreas } from "../areas/areaStore";
 import { useConsole } from "../console/store";
 import { useDraft } from "./draftStore";
 import { type SavedMission, deleteMission, listMissions, saveMission } from "./savedMissions";
@@ -32,7 +31,7 @@ export function SavedMissions() {
 function SaveForm({ missions, onSaved }: { missions: readonly SavedMission[]; onSaved(): Promise<void> }) {
   const [name, setName] = useState("");
   const waypoints = useDraft((state) => state.draft.waypoints);
-  const areas = useAreas((state) => state.areas);
+  const areas = useDraft((state) => state.draft.areas);
   const operator = useConsole((state) => state.hello?.operator ?? "");
   const robot = useConsole(selectedRobot)?.id ?? "";
   const trimmed = name.trim();
@@ -87,10 +86,7 @@ function SavedRow({ mission, onDeleted }: { mission: SavedMission; onDeleted(): 
         size="compact-xs"
         variant="default"
         aria-label={`Load ${name}`}
-        onClick={() => {
-          dispatch({ type: "load", waypoints });
-          loadAreas(areas);
-        }}
+        onClick={() => dispatch({ type: "load", waypoints, areas })}
       >
         Load
       </Button>

@@ -3,7 +3,8 @@ import { create } from "zustand";
 import { useAreas } from "../areas/areaStore";
 import { send } from "../console/outbox";
 import type { Waypoint } from "../protocol/messages";
-import { type Draft, type DraftAction, EMPTY_DRAFT, reduceDraft, sameWaypoints } from "./draft";
+import { type Draft, type DraftAction, EMPTY_DRAFT, reduceDraft } from "./draft";
+import { sameWaypoints } from "./waypoints";
 
 const PUBLISH_PERIOD = 100; // ms, the console takes at most 10 a second
 
@@ -50,7 +51,8 @@ export const useDraft = create<DraftStore>((set, get) => ({
   publish() {
     timer ??= setTimeout(() => {
       timer = undefined;
-      const { areas, drawing } = useAreas.getState();
+      const { drawing } = useAreas.getState();
+      const { areas } = get().draft;
       const shown = drawing === null || drawing.length < 2 ? areas : [...areas, drawing];
       send({ type: "draft", waypoints: shownWaypoints(get()), selected: get().draft.selected, areas: shown });
     }, PUBLISH_PERIOD);

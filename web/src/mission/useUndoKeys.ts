@@ -1,5 +1,6 @@
-/** Ctrl+Z and Ctrl+Shift+Z (or Ctrl+Y) for the mission, except where they edit text. */
+/** Ctrl+Z and Ctrl+Shift+Z (or Ctrl+Y) for mission and areas, except where they edit text. */
 import { useEffect } from "react";
+import { undoCorner, useAreas } from "../areas/areaStore";
 import { isTextField } from "../stop/keys";
 import { useDraft } from "./draftStore";
 
@@ -10,7 +11,9 @@ export function useUndoKeys(): void {
       const key = event.key.toLowerCase();
       if (key !== "z" && key !== "y") return;
       event.preventDefault();
-      useDraft.getState().dispatch({ type: key === "y" || event.shiftKey ? "redo" : "undo" });
+      const redo = key === "y" || event.shiftKey;
+      if (!redo && useAreas.getState().drawing !== null) undoCorner();
+      else useDraft.getState().dispatch({ type: redo ? "redo" : "undo" });
     };
     window.addEventListener("keydown", press);
     return () => window.removeEventListener("keydown", press);
