@@ -21,17 +21,18 @@ from websockets.exceptions import InvalidStatus
 from wire_robot import STANDING, ground_height
 
 from weaver_console.png import png
+from weaver_console.scene.area_figure import RAILS
 from weaver_console.scene.contours import INTERVAL, contours
 from weaver_console.scene.contours import LIFT as CONTOUR_LIFT
 from weaver_console.scene.layers import TRANSPORT
-from weaver_console.scene.mission_figure import TOP
+from weaver_console.scene.mission_figure import LIFT, TOP
 from weaver_console.scene.page_scene import PageScene
 from weaver_console.scene.posture import Postures, closed_hull, segments, turn_z_to
 from weaver_console.scene.shapes import octasphere, prism
 from weaver_console.scene.terrain_figure import SEAM_PERIOD, TILES_AN_UPDATE, MeshStore
 from weaver_console.scene_page import scene_page
 from weaver_shared import topics
-from weaver_shared.messages import CameraPicture, PowerState, Waypoint
+from weaver_shared.messages import CameraPicture, PowerState, TruthState, Waypoint
 from weaver_shared.robots import load_robot
 from weaver_shared.robots.forward_kinematics import joint_frames_in_body
 from weaver_shared.transforms import rotation_from_wxyz
@@ -80,6 +81,62 @@ def test_the_robot_stands_where_its_state_says(field: Field, view: View):
     assert np.allclose(view.node("/world/robot/feet").batched_positions, frames[:, -1, :3, 3], atol=1e-6)
     colours = view.node("/world/robot/feet").batched_colors
     assert (colours[:, 1] > colours[:, 0]).all()
+
+
+def test_the_truth_is_the_robots_own_figure_seen_through(field: Field, view: View):
+    robot = field.robot()
+    field.forward(robot, 0.1)
+    record = field.link.robot("weaver")
+    view.scene.wish(truth=True)
+    view.scene.update(record)
+    ghost = view.node("/world/truth")
+    assert ghost.visible
+    assert np.allclose(ghost.position, record.newest("truth/state", TruthState).position_in_world)
+    links, own = (view.node(f"/world/{name}/links") for name in ("truth", "robot"))
+    np.testing.assert_array_equal(links.batched_positions, own.batched_positions)
+    assert 0.1 < links.opacity < 0.6
+    view.scene.wish(truth=False)
+    view.scene.update(record)
+    assert not ghost.visible
+
+
+def test_a_robot_that_tells_no_truth_has_no_ghost(field: Field, view: View):
+    robot = field.robot()
+    robot._publish = _all_but_truth(robot)
+    field.forward(robot, 0.1)
+    view.scene.wish(truth=True)
+    view.scene.update(field.link.robot("weaver"))
+    assert view.node("/world/robot").visible
+    assert not view.node("/world/truth").visible
+
+
+def _all_but_truth(robot: Any) -> Any:
+    publish = robot._publish
+    return lambda topic, message: None if topic is topics.TRUTH else publish(topic, message)
+
+
+def test_a_forbidden_area_has_a_fence_on_the_ground_until_it_is_gone(field: Field, view: View):
+    robot = field.robot()
+    robot.publish_map(3)
+    field.forward(robot, 0.1)
+    record = field.link.robot("weaver")
+    corners = [(1.0, -1.0), (1.8, -1.0), (1.8, -0.2)]
+    view.scene.wish(areas=(tuple(Waypoint(x=x, y=y) for x, y in corners),))
+    view.scene.update(record)
+    fence = view.node("/world/areas/fences")
+    assert fence.visible
+    points = fence.points.reshape(-1, 3)
+    for x, y in corners:
+        heights = points[np.hypot(points[:, 0] - x, points[:, 1] - y) < 1e-3, 2]
+        ground = float(ground_height(np.array([x]), np.array([y]))[0])
+        assert np.unique((heights - ground).round(2)) == pytest.approx([rail + LIFT for rail in RAILS], abs=0.02)
+    assert points[:, 2].max() > 0.10 + RAILS[-1]  # over the box that the border crosses
+    drawn = fence.points
+    view.scene.update(record)
+    assert fence.points is drawn  # nothing is sent anew while nothing changes
+    view.scene.wish(areas=())
+    view.scene.update(record)
+    assert not fence.visible
 
 
 def test_a_whole_map_is_drawn_in_parts_and_then_left_alone(field: Field, view: View):

@@ -1,4 +1,4 @@
-"""What moves with the robot besides its links: support polygon, foot forces, look-ahead, trail, covariance, truth."""
+"""What moves with the robot besides its links: support polygon, foot forces, look-ahead, trail, covariance."""
 
 from __future__ import annotations
 
@@ -10,10 +10,8 @@ from numpy.typing import NDArray
 from weaver_console.scene.balance_figure import BalanceFigure
 from weaver_console.scene.layers import TRANSPORT
 from weaver_console.scene.lines import NONE, Lines, chained
-from weaver_console.scene.node_values import place
 from weaver_console.scene.posture import Posture
-from weaver_shared.messages import MissionState, OdometryEstimate, RobotState, TruthState
-from weaver_shared.robots import RobotDescription
+from weaver_shared.messages import MissionState, OdometryEstimate, RobotState
 
 Array = NDArray[np.float64]
 
@@ -30,20 +28,15 @@ _FORCE = (120, 200, 255)
 _LOOKAHEAD = (64, 156, 255)
 _TRAIL = (170, 180, 196)
 _COVARIANCE = (190, 140, 255)
-_TRUTH = (255, 255, 255)
 
 
 class MotionFigure:
-    def __init__(self, scene: Any, name: str, robot: RobotDescription) -> None:
-        self._robot = robot
+    def __init__(self, scene: Any, name: str) -> None:
         self._support = Lines(scene, f"{name}/support", _SUPPORT)
         self._forces = Lines(scene, f"{name}/forces", _FORCE)
         self._lookahead = Lines(scene, f"{name}/lookahead", _LOOKAHEAD)
         self._trail_line = Lines(scene, f"{name}/trail", _TRAIL)
         self._covariance = Lines(scene, f"{name}/covariance", _COVARIANCE)
-        self._truth = scene.add_frame(f"{name}/truth", show_axes=False, visible=False)
-        box = Lines(scene, f"{name}/truth/outline", _TRUTH, thickness=0.006)
-        box.show(_box_edges(robot))
         self._balance = BalanceFigure(scene, f"{name}/balance")
         self._trail: list[Array] = []
         self._costs: list[float] = []
@@ -77,11 +70,6 @@ class MotionFigure:
         ellipse = (vectors * radii) @ np.stack([np.cos(angles), np.sin(angles)])
         self._covariance.chain(np.column_stack([ellipse.T, np.zeros(33)]) + odometry.position_in_world)
 
-    def truth(self, truth: TruthState | None) -> None:
-        self._truth.visible = truth is not None
-        if truth is not None:
-            place(self._truth, truth.position_in_world, truth.wxyz)
-
     def show_trail(self, wanted: bool) -> None:
         self._trail_shown = wanted
         segments = chained(np.array(self._trail)) if wanted and self._trail else NONE
@@ -103,11 +91,3 @@ class MotionFigure:
         if stable is not self._stable:
             self._stable = stable
             self._support.colour(_SUPPORT if stable else _UNSTABLE)
-
-
-def _box_edges(robot: RobotDescription) -> Array:
-    """The twelve edges of the trunk, (12, 2, 3) in body."""
-    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-    corners = np.asarray(robot.body.box_in_body) + 0.5 * signs * np.asarray(robot.body.size)
-    pairs = [(a, b) for a in range(8) for b in range(a + 1, 8) if np.abs(signs[a] - signs[b]).sum() == 2]
-    return np.array([[corners[a], corners[b]] for a, b in pairs])

@@ -21,12 +21,13 @@ from numpy.typing import NDArray
 from weaver_console.robot_record import RobotRecord
 from weaver_console.scene.area_figure import AreaFigure
 from weaver_console.scene.contours import ContourFigure
+from weaver_console.scene.ghost_figure import GhostFigure
 from weaver_console.scene.ground import Ground
 from weaver_console.scene.layers import Legend
 from weaver_console.scene.measure_figure import MeasureFigure
 from weaver_console.scene.mission_figure import TOP, Course, MissionFigure
 from weaver_console.scene.motion_figure import MotionFigure
-from weaver_console.scene.posture import Postures
+from weaver_console.scene.posture import Posture, Postures
 from weaver_console.scene.robot_figure import RobotFigure
 from weaver_console.scene.terrain_figure import MeshStore, TerrainFigure
 from weaver_shared.bus import free_port
@@ -84,6 +85,7 @@ class _Shown:
     root: Any
     figure: RobotFigure | None
     motion: MotionFigure | None
+    ghost: GhostFigure | None
     terrain: TerrainFigure
     mission: MissionFigure
     contours: ContourFigure
@@ -92,6 +94,7 @@ class _Shown:
     frusta: dict[str, Any] = field(default_factory=dict)
     followed: Array | None = None
     drawn: RobotState | None = None
+    posture: Posture | None = None  # of the same state
     drawable: bool = False  # whether the newest state fits the robot
     versions: dict[str, int] = field(default_factory=dict)
 
@@ -196,7 +199,7 @@ class PageScene:
             self._place_camera(state.position_in_world)
         if new and _moved(shown.drawn, state):
             shown.drawn = state
-            posture = self._postures.of(robot, state)
+            posture = shown.posture = self._postures.of(robot, state)
             shown.figure.update(posture)
             power = record.newest("tele/power", PowerState)
             shown.motion.leave_trail(state, power.cost_of_transport if power is not None else float("nan"))
@@ -206,7 +209,9 @@ class PageScene:
         odometry = record.newest("tele/odometry", OdometryEstimate)
         if odometry is not None and _new(shown, record, "tele/odometry"):
             shown.motion.covariance(odometry)
-        shown.motion.truth(record.newest("truth/state", TruthState) if wishes.truth else None)
+        if shown.ghost is not None and shown.posture is not None:
+            truth = record.newest("truth/state", TruthState) if wishes.truth else None
+            shown.ghost.update(_finite(truth), shown.posture)
         shown.figure.torque(state.joint_torque if wishes.torques else None)
         _show_pictures(shown, record, wishes.frusta)
         if _changed(shown, "trail", int(wishes.trail)):
@@ -226,7 +231,8 @@ class PageScene:
             robot=robot,
             root=root,
             figure=figure,
-            motion=MotionFigure(scene, "/world/motion", robot) if robot is not None else None,
+            motion=MotionFigure(scene, "/world/motion") if robot is not None else None,
+            ghost=GhostFigure(scene, "/world/truth", robot) if robot is not None else None,
             terrain=TerrainFigure(scene, "/world/terrain", self._store),
             mission=MissionFigure(
                 scene,
@@ -343,6 +349,12 @@ def _show_pictures(shown: _Shown, record: RobotRecord, wanted: bool) -> None:
         if picture is not None and _changed(shown, f"eye {name}", picture.stamp_ns // PICTURE_PERIOD_NS):
             # NOTE: viser would take the pixels and make a JPEG of them; the robot has sent one.
             frustum._format, frustum._image_data = "jpeg", picture.jpeg
+
+
+def _finite(truth: TruthState | None) -> TruthState | None:
+    if truth is None or not np.isfinite([*truth.position_in_world, *truth.wxyz]).all():
+        return None
+    return truth
 
 
 def _drawable(state: RobotState, robot: RobotDescription) -> bool:
