@@ -149,5 +149,6 @@ def _link_message(record: RobotRecord, now_ns: int) -> dict[str, object]:
         "robot": record.robot_id,
         "alive": record.alive,
         "heartbeat_age_s": None if age is None else round(age, 3),
+        "loss": None if record.loss is None else round(record.loss, 3),
         "rates": {key: round(rate, 1) for key, rate in record.rates.items() if "/tile/" not in key},
     }

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from weaver_console.plain import plain, to_json
 from weaver_console.scene.ground import Ground
+from weaver_shared import topics
 from weaver_shared.messages import Heartbeat, LeaseState, MapTile, MissionState, ModeState, Presence
 from weaver_shared.robots import RobotDescription
 
@@ -69,6 +70,9 @@ class RobotRecord:
     version: int = 0
     counts: dict[str, int] = field(default_factory=dict)  # messages received by key since the last rates
     rates: dict[str, float] = field(default_factory=dict)  # Hz by key
+    loss: float | None = None  # share of its heartbeats that did not arrive
+    beat_stamp_ns: int = 0  # robot's clock in its newest heartbeat
+    counted_stamp_ns: int = 0  # the same when loss was last measured
 
     def keep(self, key: str, message: Any, now_ns: int) -> None:
         self.version += 1
@@ -89,6 +93,7 @@ class RobotRecord:
             return False
         restarted = self.begin_session(heartbeat.session)
         self.heartbeat_ns = now_ns
+        self.beat_stamp_ns = heartbeat.stamp_ns
         self.counts["hb"] = self.counts.get("hb", 0) + 1
         return restarted
 
@@ -114,7 +119,14 @@ class RobotRecord:
                 self.ground.put(value.message)
 
     def measure_rates(self, elapsed: float) -> None:
-        """Turn the counts of the last `elapsed` s into rates."""
+        """Turn the counts of the last `elapsed` s into rates and loss.
+
+        Heartbeats are sent by the robot's clock: how many there were is told by their stamps, however slow it runs.
+        """
+        sent = (self.beat_stamp_ns - self.counted_stamp_ns) * 1e-9 * topics.HEARTBEAT.rate
+        known = self.counted_stamp_ns > 0 and sent >= 1.0
+        self.loss = max(0.0, 1.0 - self.counts.get("hb", 0) / sent) if known else None
+        self.counted_stamp_ns = self.beat_stamp_ns
         self.rates = {key: count / elapsed for key, count in self.counts.items()}
         self.counts = dict.fromkeys(self.counts, 0)
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 from PIL import Image, ImageDraw
-from wire_robot import WireRobot
+from wire_robot import SPEED, WireRobot
 
 from robot_agent.forbidden_areas import Area, areas_of
 from robot_agent.recording.playback import Playback
@@ -79,7 +79,7 @@ class FullRobot(WireRobot):
             self.waypoints, self.next_waypoint, self.overrides = (), 0, {}
             self.place, self.commands, self.areas = np.zeros(2), [], ()
             self.quality, self.temperature, self.real_time_factor = OdometryQuality.GOOD, 41.0, 1.0
-            self.faults, self.perception = (), "robust"
+            self.faults, self.perception, self.speed = (), "robust", SPEED
 
     def _decide(self, command: Command) -> Answer:
         """A busy computer holds up pages for seconds; losing control by that is not what these tests are about."""

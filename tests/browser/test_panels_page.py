@@ -88,6 +88,23 @@ def test_paper_mode_is_asked_of_the_robot_and_shown_as_it_reports_it(visit: Call
     assert not mode.is_checked()
 
 
+def test_a_setting_is_found_and_set_within_its_bounds(visit: Callable[..., Any], stage: Any) -> None:
+    anna = visit()
+    anna.stand()
+    anna.page.get_by_role("searchbox", name="Search settings").fill("height")
+    settings = anna.page.get_by_role("list", name="Settings").get_by_role("listitem")
+    settings.filter(has_text="0.030 to 0.140 m").wait_for()
+    assert settings.count() == 1
+    field = settings.get_by_role("textbox", name="Set Stride height in m")
+    field.fill("0.5")
+    field.press("Enter")
+    anna.page.get_by_text("Stride height was not set: it goes from 0.030 to 0.140 m.").wait_for()
+    assert stage.robot.overrides == {}
+    field.fill("0.1")
+    field.press("Enter")
+    _wait(anna, lambda: stage.robot.overrides.get("stride_height") == 0.1)
+
+
 def test_tracked_features_are_drawn_over_the_picture_when_asked_for(
     visit: Callable[..., Any], picture: Callable[[Any, str], None]
 ) -> None:

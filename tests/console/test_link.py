@@ -1,10 +1,11 @@
 """Robots come, go and return at the console by themselves."""
 
+import pytest
 from running_console import Field
 
 from weaver_console.roster import Roster, describe
 from weaver_shared import topics
-from weaver_shared.messages import Presence
+from weaver_shared.messages import Heartbeat, Presence
 from weaver_shared.robots import load_robot
 
 
@@ -106,6 +107,27 @@ def test_processes_are_told_apart_and_their_end_is_an_event(field: Field):
     field.bus.close()
     assert field.link.robot("weaver").processes == set()
     assert "process vision of weaver is gone" in _texts(field)
+
+
+def test_lost_heartbeats_are_counted_by_the_robots_clock(field: Field):
+    def beat(number: int) -> None:
+        heartbeat = Heartbeat(stamp_ns=number * 50_000_000, sequence=number, session="first")
+        field.bus.publish("weaver", topics.HEARTBEAT, heartbeat)
+
+    def beats(numbers: list[int]) -> None:
+        for number in numbers:
+            beat(number)
+        field.clock.forward(seconds=1.0)
+        field.link.check()
+
+    beats(list(range(1, 21)))
+    assert field.link.robot("weaver").loss is None  # nobody knows how many there were before
+    beats(list(range(21, 41)))
+    assert field.link.robot("weaver").loss == 0.0
+    beats([number for number in range(41, 61) if number % 4])
+    assert field.link.robot("weaver").loss == pytest.approx(1 - 15 / 19)  # the last one heard is the 59th
+    beats([])
+    assert field.link.robot("weaver").loss is None
 
 
 def test_rates_are_measured_a_key(field: Field):

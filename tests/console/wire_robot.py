@@ -85,6 +85,7 @@ class WireRobot:
         self.perception = "robust"
         self.place = np.zeros(2)
         self.velocity = np.zeros(3)
+        self.speed = SPEED
         self.tick = 0
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
@@ -188,10 +189,10 @@ class WireRobot:
         goal = self.waypoints[self.next_waypoint]
         away = np.array([goal.x, goal.y]) - self.place
         distance = float(np.linalg.norm(away))
-        if distance < SPEED * dt:
+        if distance < self.speed * dt:
             self.next_waypoint += 1
         else:
-            self.velocity[:2] = SPEED * away / distance
+            self.velocity[:2] = self.speed * away / distance
             self.place = self.place + self.velocity[:2] * dt
 
     def state(self, stamp_ns: int) -> RobotState:
@@ -279,6 +280,7 @@ class WireRobot:
             desired=desired,
             applied=applied,
             overridden=tuple(self.overrides),
+            preset="usual",
             perception=self.perception,
         )
 

@@ -10,6 +10,7 @@ import { MissionPanel } from "./mission/MissionPanel";
 import { useUndoKeys } from "./mission/useUndoKeys";
 import { RecordingPanel } from "./recording/RecordingPanel";
 import { ReplayBar } from "./replay/ReplayBar";
+import { SettingsPanel } from "./settings/SettingsPanel";
 import { useIsReplay } from "./replay/commands";
 import { RobotPanel } from "./robot/RobotPanel";
 import { Views } from "./scene/Views";
@@ -63,7 +64,12 @@ function Work() {
         <div className="panel-column">
           <AdaptationPanel />
           <StatusPanel />
-          {replay ? null : <RecordingPanel />}
+          {replay ? null : (
+            <>
+              <RecordingPanel />
+              <SettingsPanel />
+            </>
+          )}
         </div>
       </div>
     </main>

@@ -1,6 +1,5 @@
-/** A coordinate in metres, taken over with Enter or on leaving the field; nonsense is put back. */
-import { useEffect, useState } from "react";
-import { fixed } from "../components/format";
+/** A coordinate in metres. */
+import { NumberInput } from "../components/NumberInput";
 
 interface CoordinateInputProps {
   label: "x" | "y";
@@ -11,24 +10,9 @@ interface CoordinateInputProps {
 }
 
 export function CoordinateInput({ label, name, value, onCommit }: CoordinateInputProps) {
-  const [text, setText] = useState(fixed(value, 2));
-  useEffect(() => setText(fixed(value, 2)), [value]);
-  const commit = () => {
-    const entered = Number(text.replace(",", "."));
-    if (text.trim() === "" || !Number.isFinite(entered) || entered === value) setText(fixed(value, 2));
-    else onCommit(entered);
-  };
   return (
     <label className="coordinate">
-      <input
-        type="text"
-        inputMode="decimal"
-        aria-label={`${label} of ${name} in metres`}
-        value={text}
-        onChange={(event) => setText(event.currentTarget.value)}
-        onBlur={commit}
-        onKeyDown={(event) => event.key === "Enter" && commit()}
-      />
+      <NumberInput label={`${label} of ${name} in metres`} value={value} digits={2} onCommit={onCommit} />
     </label>
   );
 }

@@ -71,6 +71,8 @@ export interface LinkReport {
   robot: string;
   alive: boolean;
   heartbeat_age_s: number | null;
+  /** Share of the robot's heartbeats that did not reach the console; null unknown. */
+  loss: number | null;
   rates: Record<string, number>;
 }
 

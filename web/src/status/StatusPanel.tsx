@@ -69,8 +69,10 @@ function LoopRow({ timing, level }: { timing: LoopTiming; level: string }) {
 
 function PowerDetails() {
   const power = useLatest(POWER);
+  const current = (power?.supply_power ?? NaN) / (power?.battery_voltage ?? NaN);
   return (
     <div className="readings">
+      <Reading label="Supply current" source={POWER} value={fixed(current, 1)} unit="A" />
       <Reading label="Motor power" source={POWER} value={fixed(power?.motor_power, 0)} unit="W" />
       <Reading label="Cost of transport" source={POWER} value={fixed(power?.cost_of_transport, 2)} />
     </div>

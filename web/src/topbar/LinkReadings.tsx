@@ -1,5 +1,5 @@
 /** Both directions of the link apart: what arrives from the robot, and how long an answer takes. */
-import { fixed, milliseconds } from "../components/format";
+import { UNKNOWN, fixed, milliseconds, percent } from "../components/format";
 import { spokenAge } from "../console/freshness";
 import { useConsole } from "../console/store";
 
@@ -11,6 +11,7 @@ const SLOW = 1;
 export function LinkReadings() {
   const down = useConsole((state) => downlink(state.link?.heartbeat_age_s ?? null, state.linkReceived, state.now));
   const rate = useConsole((state) => fixed(state.link?.rates["tele/state"], 0));
+  const loss = useConsole((state) => percent(state.link?.loss));
   const up = useConsole((state) => {
     if (state.connection !== "open" || state.roundTrip === null) return null;
     return (state.now - state.roundTripReceived) / 1000 > PONG_OVERDUE ? null : state.roundTrip;
@@ -20,12 +21,13 @@ export function LinkReadings() {
   const downLost = !open || down === null || down >= SILENT_AFTER;
   return (
     <dl className="link" aria-label="Link">
-      <div data-bad={downLost} title="From the robot: age of its last heartbeat, and states a second">
+      <div data-bad={downLost} title="From the robot: age of its last heartbeat, states a second, heartbeats that did not arrive">
         <dt>
           <span aria-hidden>↓</span> robot
         </dt>
         <dd>
           {!open || down === null ? "none" : downLost ? `${spokenAge(down)} silent` : `${spokenAge(down)}, ${rate} Hz`}
+          {!downLost && loss !== UNKNOWN && <span className="unit">, {loss} % lost</span>}
         </dd>
       </div>
       <div
@@ -48,5 +50,5 @@ export function LinkReadings() {
 
 /** Age of the heartbeat now, in tenths of a second: counted on from the console's last report. */
 function downlink(age: number | null, received: number, now: number): number | null {
-  return age === null ? null : Math.round(10 * (age + Math.max(0, now - received - 500) / 1000)) / 10;
+  return age === null ? null : Math.max(0, Math.round(10 * (age + Math.max(0, now - received - 500) / 1000)) / 10);
 }
