@@ -44,6 +44,7 @@ class Verdict:
     action: SafetyAction
     reasons: tuple[str, ...]
     warnings: tuple[str, ...]
+    attitude_known: bool = True  # whether legs and body may answer to it
 
 
 class SafetySupervisor:
@@ -65,6 +66,7 @@ class SafetySupervisor:
             action=action,
             reasons=tuple(text for _, text in sorted(restricting, key=lambda f: -SEVERITY[f[0]])),
             warnings=tuple(text for kind, text in findings if kind is SafetyAction.ALLOW),
+            attitude_known=inputs.imu_age <= self._limits.attitude_age,
         )
 
     def _findings(self, inputs: SafetyInputs) -> Iterator[tuple[SafetyAction, str]]:

@@ -156,6 +156,14 @@ def test_it_holds_until_the_fault_is_over(stand: Stand, row: Row) -> None:
     assert stand.body.troubles() == []
 
 
+def test_a_silent_imu_freezes_the_inclination_before_the_robot_holds(stand: Stand) -> None:
+    inject(stand.devices, "imu-silent")
+    assert stand.until(lambda tick: "the direction of gravity is missing" in tick.walk.reasons, 8) >= 5
+    assert stand.standing(stand.tick())
+    inject(stand.devices, "imu-silent", ending=True)
+    stand.until(lambda tick: stand.standing(tick) and not tick.walk.reasons)
+
+
 SAID = [
     Row("power-silent", "", "the power monitor has been silent", "STAND", 130),
     Row("battery", "", "the battery is at 24", "STAND", 350, 23.5),

@@ -187,6 +187,7 @@ class Ideal:
         self.joints = self.walker.begin_standing()
         self.pose = Pose.identity()
         self.ground = np.eye(3)  # gravity's up is z of ground @ unposed
+        self.blind = False  # the attitude is unknown
 
     def tick(self, velocity=(0.0, 0.0, 0.0), *, gait="tripod", stand=True, **order):
         up = (self.ground @ self.pose.rotation).T @ [0.0, 0.0, 1.0]
@@ -202,7 +203,7 @@ class Ideal:
                 joint_position=self.joints,
                 joint_torque=np.zeros(30),
                 foot_contact=np.ones(6, dtype=bool),
-                gravity_in_body=-up,
+                gravity_in_body=np.full(3, np.nan) if self.blind else -up,
                 posing=PosingOrder(**order),
             )
         )
@@ -312,6 +313,29 @@ def test_levelling_makes_the_body_level_on_a_slope_that_posture_would_follow():
     ideal = Ideal()
     ideal.ground = rotation_from_rpy(0.0, -0.12, 0.0)
     ideal.run(8.0, levelling=True)
+    up = (ideal.ground @ ideal.pose.rotation).T @ [0.0, 0.0, 1.0]
+    assert np.degrees(np.hypot(up[0], up[1])) < 0.5
+
+
+def test_levelling_keeps_its_answer_while_the_attitude_is_unknown():
+    ideal = Ideal()
+    ideal.run(8.0, levelling=True)
+    ideal.ground = rotation_from_rpy(0.0, -0.12, 0.0)
+    ideal.run(0.3, levelling=True)  # on its way to level
+    ideal.blind = True
+    ideal.run(1.0, levelling=True)  # the slew comes to its end
+    held = ideal.pose.matrix.copy()
+    for out in ideal.run(2.0, levelling=True):
+        np.testing.assert_allclose(out.unposed_from_body.matrix, held, atol=1e-4)
+    assert "the direction of gravity is missing" in ideal.out.reasons
+    up = (ideal.ground @ ideal.pose.rotation).T @ [0.0, 0.0, 1.0]
+    assert np.degrees(np.hypot(up[0], up[1])) > 1.0
+    ideal.blind, before, fastest = False, ideal.pose.rotation, 0.0
+    for out in ideal.run(8.0, levelling=True):
+        after = out.unposed_from_body.rotation
+        fastest = max(fastest, float(np.linalg.norm(after - before)) / DT)
+        before = after
+    assert fastest < 0.5
     up = (ideal.ground @ ideal.pose.rotation).T @ [0.0, 0.0, 1.0]
     assert np.degrees(np.hypot(up[0], up[1])) < 0.5
 

@@ -39,6 +39,11 @@ def test_a_healthy_robot_may_move() -> None:
     assert (result.action, result.reasons, result.warnings) == (SafetyAction.ALLOW, (), ())
 
 
+@pytest.mark.parametrize(("imu_age", "known"), [(0.0, True), (0.05, True), (0.051, False), (0.3, False)])
+def test_nothing_answers_to_an_attitude_older_than_50_ms(imu_age: float, known: bool) -> None:
+    assert SafetySupervisor().step(dataclasses.replace(HEALTHY, imu_age=imu_age), 0.01).attitude_known is known
+
+
 @pytest.mark.parametrize(
     ("changes", "action", "words"),
     [

@@ -22,6 +22,12 @@ def clear_levelling(posing: Record) -> None:
 
 
 @kernel
+def hold_levelling(posing: Record) -> None:
+    """Keep the answer while the tilt is unknown; the next one known says nothing of its rate."""
+    posing.measured = False
+
+
+@kernel
 def step_levelling(posing: Record, error: Array, dt: float) -> None:
     """Set `turn` (2,) rad about x and y for a tilt `error` (2,) rad still to be undone.
 

@@ -12,8 +12,9 @@ import numpy as np
 
 from robot_agent.kinematics.compiled import kernel
 from robot_agent.locomotion.posing.automatic import sway
-from robot_agent.locomotion.posing.levelling import clear_levelling, step_levelling, tilt_error
+from robot_agent.locomotion.posing.levelling import clear_levelling, hold_levelling, step_levelling, tilt_error
 from robot_agent.locomotion.posing.slew import follow
+from robot_agent.locomotion.reasons import GRAVITY
 from robot_agent.locomotion.walk_state import Array, Record
 
 MANUAL, LEVEL, FADE = 0, 1, 2
@@ -46,9 +47,12 @@ def pose_body(walk: Record, slews: Array) -> None:
         append(rotation, position, turn, place)
     wanted[0] = 0.0
     if posing.levelling:
-        error = np.empty(2)
-        tilt_error(rotated(rotation, walk.senses.up), error)
-        step_levelling(posing, error, walk.model.dt)
+        if walk.answer.reasons & GRAVITY:
+            hold_levelling(posing)
+        else:
+            error = np.empty(2)
+            tilt_error(rotated(rotation, walk.senses.up), error)
+            step_levelling(posing, error, walk.model.dt)
         wanted[3], wanted[4] = posing.turn[0], posing.turn[1]
     else:
         clear_levelling(posing)

@@ -12,6 +12,7 @@ class SafetyLimits(BaseModel):
     hold_before_sit: float = 60.0
     tilt_hold: float = 0.61  # 35 degrees; the robot is meant to climb 30
     tilt_cut: float = 1.05  # 60 degrees: it has fallen over
+    attitude_age: float = 0.05  # from then on nothing answers to the attitude that was last known
     imu_age: float = 0.2
     odometry_age: float = 0.5
     joints_missing: float = 0.1  # five cycles of 20 ms
