@@ -39,8 +39,8 @@ SCENE_PERIOD = 1.0 / 15.0
 GROUND = 3
 """Pictures between new ground: 5 times a second."""
 
-THRIFT = 2
-"""Only every second picture for a browser without a graphics card."""
+THRIFT = 3
+"""Only every third picture for a browser without a graphics card."""
 
 SCENE_KEPT = 10.0
 """Seconds that the 3-D view of a page outlives its connection, so that a short break does not redraw it."""

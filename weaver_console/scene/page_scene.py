@@ -43,7 +43,7 @@ Array = NDArray[np.float64]
 LINES_PERIOD_NS = 120_000_000
 """Polygon, forces and look-ahead are drawn 8 times a second: in the browser lines cost more than all the rest."""
 
-THRIFTY_TERRAIN = 12
+THRIFTY_TERRAIN = 9
 """Updates between new ground where the browser draws without a graphics card: each tile costs it a new shader."""
 
 FOLLOWER = PathFollowerConfig()
