@@ -25,8 +25,7 @@ class Kept:
 
 class AreaKeeper:
     def __init__(self, robot: RobotDescription) -> None:
-        circle = float(np.hypot(*robot.stance_in_body[:, :2].T).max()) + robot.foot_radius
-        self._fence = AreaFence(circle, robot.half_width)
+        self._fence = AreaFence(robot.foot_circle, robot.half_width)
         self._told = 0  # number of the area before which it has stopped
 
     def keep_out(

@@ -50,7 +50,7 @@ from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import feet_in_body
 from weaver_shared.transforms import Pose
 
-UNKNOWN = np.full(3, np.nan)
+UNKNOWN_GRAVITY = np.full(3, np.nan)
 """For the attitude of a robot whose IMU is silent: legs and body keep what they do about it."""
 
 REPORT_LIFETIME = 1.0
@@ -266,7 +266,7 @@ class WalkPipeline:
                 joint_position=sensed.joint_position,
                 joint_torque=sensed.joint_torque,
                 foot_contact=sensed.foot_contact,
-                gravity_in_body=state.gravity_in_body if verdict.attitude_known else UNKNOWN,
+                gravity_in_body=state.gravity_in_body if verdict.attitude_known else UNKNOWN_GRAVITY,
                 posing=orders.posing,
                 legs=orders.legs,
                 footholds=orders_in_body(orders.footholds, state.world_from_body) if orders.footholds else (),

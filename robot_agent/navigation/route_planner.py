@@ -27,8 +27,7 @@ class RoutePlanner:
 
     def __init__(self, robot: RobotDescription, config: RouteConfig | None = None) -> None:
         self._config = config = config or RouteConfig()
-        feet = robot.stance_in_body[:, :2]
-        self._radius = float(np.hypot(*feet.T).max()) + robot.foot_radius + config.clearance
+        self._radius = robot.foot_circle + config.clearance
         self._goal: NavigationGoal | None = None
         self._costs: GroundCosts | None = None
         self._measured: tuple[tuple[Area, ...], GroundCosts, list[Array]] | None = None

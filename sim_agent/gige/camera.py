@@ -163,7 +163,10 @@ class GigeCamera:
             if asked is None:
                 continue
             with self._guard:
-                said = self._answer(asked, caller)
+                try:
+                    said = self._answer(asked, caller)
+                except (ValueError, struct.error):  # its payload is not what the command takes
+                    said = answer(asked, status=Status.INVALID_PARAMETER)
             if said and asked.answer_wanted:
                 self._control.sendto(said, caller)
 

@@ -26,6 +26,7 @@ class Command(IntEnum):
 class Status(IntEnum):
     SUCCESS = 0x0000
     NOT_IMPLEMENTED = 0x8001
+    INVALID_PARAMETER = 0x8002
     INVALID_ADDRESS = 0x8003
     ACCESS_DENIED = 0x8006
 

@@ -4,14 +4,17 @@ import asyncio
 import threading
 import time
 
+import pytest
 from running_console import Console
 from wire_robot import WireRobot
 
+from weaver_console.measuring import bench_links
 from weaver_console.measuring.made_robot import MadeRobot
 from weaver_console.measuring.narrow_way import NarrowWay
 from weaver_console.measuring.page_client import PageClient
 from weaver_console.measuring.percentiles import percentiles_ms
 from weaver_shared.bus import MemoryBus
+from weaver_shared.errors import InputError
 
 
 async def _visit(page: PageClient, port: int, enough: object) -> None:
@@ -69,3 +72,12 @@ def test_a_narrow_way_carries_so_many_bytes_a_second_and_no_more(console: Consol
 def test_percentiles_of_nothing_are_none_rather_than_zero() -> None:
     assert percentiles_ms([], 50) == {"count": 0, "p50": None}
     assert percentiles_ms([0.001, 0.002, 0.003], 50) == {"count": 3, "p50": 2.0}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [(["--only", "moon"], "no case is called like 'moon'"), (["--drive", "cruise,foot"], "can not be driven by foot")],
+)
+def test_lost_links_that_are_not_known_are_refused(arguments: list[str], complaint: str) -> None:
+    with pytest.raises(InputError, match=complaint):
+        bench_links.main(arguments)

@@ -115,11 +115,16 @@ def _all_but_truth(robot: Any) -> Any:
     return lambda topic, message: None if topic is topics.TRUTH else publish(topic, message)
 
 
-def test_a_forbidden_area_has_a_fence_on_the_ground_until_it_is_gone(field: Field, view: View):
+def _mapped(field: Field, tiles: int) -> Any:
+    """The record of a robot that has told a map of `tiles` to each side."""
     robot = field.robot()
-    robot.publish_map(3)
+    robot.publish_map(tiles)
     field.forward(robot, 0.1)
-    record = field.link.robot("weaver")
+    return field.link.robot("weaver")
+
+
+def test_a_forbidden_area_has_a_fence_on_the_ground_until_it_is_gone(field: Field, view: View):
+    record = _mapped(field, 3)
     corners = [(1.0, -1.0), (1.8, -1.0), (1.8, -0.2)]
     view.scene.wish(areas=(tuple(Waypoint(x=x, y=y) for x, y in corners),))
     view.scene.update(record)
@@ -140,10 +145,7 @@ def test_a_forbidden_area_has_a_fence_on_the_ground_until_it_is_gone(field: Fiel
 
 
 def test_a_whole_map_is_drawn_in_parts_and_then_left_alone(field: Field, view: View):
-    robot = field.robot()
-    robot.publish_map(3)
-    field.forward(robot, 0.1)
-    record = field.link.robot("weaver")
+    record = _mapped(field, 3)
     view.scene.update(record)
     assert len(view.names("/world/terrain/")) == TILES_AN_UPDATE
     view.scene.update(record)
@@ -155,10 +157,7 @@ def test_a_whole_map_is_drawn_in_parts_and_then_left_alone(field: Field, view: V
 
 
 def test_a_changed_tile_is_drawn_at_once_and_its_seams_soon_after(field: Field, view: View):
-    robot = field.robot()
-    robot.publish_map(1)
-    field.forward(robot, 0.1)
-    record = field.link.robot("weaver")
+    record = _mapped(field, 1)
     view.scene.update(record)
     before = {name: view.node(name).glb_data for name in view.names("/world/terrain/")}
     tile = record.ground.tiles[0, 0]
@@ -179,10 +178,7 @@ def test_how_a_robot_stands_is_worked_out_once_for_all_pages(field: Field):
 
 
 def test_another_layer_recolours_every_tile_and_tells_its_legend(field: Field, view: View):
-    robot = field.robot()
-    robot.publish_map(1)
-    field.forward(robot, 0.1)
-    record = field.link.robot("weaver")
+    record = _mapped(field, 1)
     view.scene.update(record)
     before = view.node("/world/terrain/0_0").glb_data
     view.scene.wish(layer="roughness")
@@ -222,10 +218,7 @@ def test_the_draft_is_drawn_until_the_robot_has_it(field: Field, view: View):
 
 
 def test_a_waypoint_in_hand_stays_the_same_while_its_path_follows(field: Field, view: View):
-    robot = field.robot()
-    robot.publish_map(2)
-    field.forward(robot, 0.1)
-    record = field.link.robot("weaver")
+    record = _mapped(field, 2)
     view.scene.propose([Waypoint(x=0.5, y=0.1), Waypoint(x=0.9, y=0.1)], None)
     view.scene.update(record)
     ball = view.node("/world/mission/draft/balls")

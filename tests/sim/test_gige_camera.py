@@ -157,3 +157,21 @@ def test_only_one_client_controls_it(camera: GigeCamera, client: Client) -> None
 def test_two_cameras_can_not_have_one_address(camera: GigeCamera, clock: SimulatedClock) -> None:
     with pytest.raises(ResourceError, match=ADDRESS):
         GigeCamera(ADDRESS, "RIGHT", SIZE, clock.now_ns)
+
+
+@pytest.mark.parametrize(
+    ("command", "payload"),
+    [
+        (Command.READ_MEMORY, b""),
+        (Command.READ_MEMORY, bytes(12)),
+        (Command.WRITE_REGISTERS, bytes(4)),
+        (Command.RESEND, bytes(5)),
+    ],
+)
+def test_a_question_of_the_wrong_length_is_refused_and_the_next_one_answered(
+    camera: GigeCamera, client: Client, command: Command, payload: bytes
+) -> None:
+    assert client.ask(command, payload) == (Status.INVALID_PARAMETER, b"")
+    status, told = client.ask(Command.DISCOVER)
+    assert status == Status.SUCCESS
+    assert len(told) == 0xF8

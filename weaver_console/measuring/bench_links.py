@@ -21,14 +21,14 @@ from typing import Any
 
 import numpy as np
 
-from weaver_console.measuring.driving_page import DrivingPage
+from weaver_console.measuring.driving_page import DRIVES, DrivingPage
 from weaver_console.measuring.guarded_bus import GuardedBus
 from weaver_console.measuring.processes import MeasuredProcess, console_process
 from weaver_console.measuring.robot_watch import RobotWatch
 from weaver_console.measuring.silent_way import SilentWay
 from weaver_shared.bus import ZenohBus, free_port
 from weaver_shared.bus_security import own_settings
-from weaver_shared.errors import ResourceError
+from weaver_shared.errors import InputError, ResourceError
 
 ROBOT = "link-1"
 STILL_WITHIN = 1.5  # s
@@ -46,7 +46,12 @@ CASES = (
 def main(arguments: list[str]) -> int:
     options = _parser().parse_args(arguments)
     wanted = [case for case in CASES if options.only in case]
-    figures = asyncio.run(measure(wanted, options.drive.split(",")))
+    if not wanted:
+        raise InputError(f"no case is called like {options.only!r}; there are {', '.join(CASES)}")
+    drives = options.drive.split(",")
+    if unknown := [how for how in drives if how not in DRIVES]:
+        raise InputError(f"the robot can not be driven by {', '.join(unknown)}; known are {', '.join(DRIVES)}")
+    figures = asyncio.run(measure(wanted, drives))
     if options.json:
         print(json.dumps(figures))
     else:
@@ -228,6 +233,6 @@ def _tell(text: str) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="weaver bench links", description=__doc__)
     parser.add_argument("--only", default="", help="only cases whose name contains this")
-    parser.add_argument("--drive", default="cruise,hand", help="how the robot is driven (%(default)s)")
+    parser.add_argument("--drive", default=",".join(DRIVES), help="how the robot is driven (%(default)s)")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     return parser

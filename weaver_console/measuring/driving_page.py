@@ -15,6 +15,7 @@ from weaver_shared.errors import ResourceError
 RETAIN_PERIOD, STICK_PERIOD = 0.25, 0.05
 PATIENCE = 20.0
 CRUISE = 0.2  # m/s
+DRIVES = ("cruise", "hand")
 
 
 class DrivingPage:
@@ -62,7 +63,7 @@ class DrivingPage:
         raise ResourceError(f"{name.replace('_', ' ')} was refused: {answer['reason']}")
 
     async def drive(self, how: str, direction: float) -> None:
-        """Keep control from now on and drive: `hand` or `cruise`, forward or back."""
+        """Keep control from now on and drive in one of DRIVES, forward or back."""
         self._jobs.append(asyncio.create_task(self._keep_saying(RETAIN_PERIOD, type="retain")))
         if how == "cruise":
             await self.insist("start_cruise", name="forward", value=direction * CRUISE, seconds=60.0)

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from weaver_console.scene.link_meshes import add_links
 from weaver_console.scene.node_values import assign, place
-from weaver_console.scene.posture import Posture, segments, visible_links
-from weaver_console.scene.shapes import prism
+from weaver_console.scene.posture import Posture
 from weaver_shared.messages import TruthState
 from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import joint_frames_in_body
@@ -27,13 +27,7 @@ class GhostFigure:
         self._frame = scene.add_frame(name, show_axes=False, visible=False)
         self._shown: Posture | None = None
         frames = joint_frames_in_body(robot, np.zeros(robot.joint_count))
-        positions, wxyzs, lengths = segments(frames, visible_links(frames))
-        vertices, faces = prism()
-        scales = np.stack([np.full(lengths.size, WIDTH), np.full(lengths.size, WIDTH), lengths], axis=1)
-        self._links = scene.add_batched_meshes_simple(
-            f"{name}/links", vertices, faces, wxyzs, positions,
-            batched_scales=scales, batched_colors=_COLOUR, flat_shading=True, lod="off", **_LOOK,
-        )  # fmt: skip
+        self._links = add_links(scene, f"{name}/links", frames, WIDTH, _COLOUR, **_LOOK)
         scene.add_box(
             f"{name}/body", color=_COLOUR, dimensions=robot.body.size, position=robot.body.box_in_body, **_LOOK
         )

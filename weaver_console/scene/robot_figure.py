@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from weaver_console.scene.layers import TORQUE
+from weaver_console.scene.link_meshes import add_links
 from weaver_console.scene.node_values import assign, place
-from weaver_console.scene.posture import Posture, segments, visible_links
-from weaver_console.scene.shapes import octasphere, prism, upright
+from weaver_console.scene.posture import Posture, visible_links
+from weaver_console.scene.shapes import octasphere, upright
 from weaver_shared.robots import RobotDescription
 from weaver_shared.robots.forward_kinematics import joint_frames_in_body
 
@@ -25,6 +26,7 @@ _LINK_COLOUR = (214, 138, 52)
 _JOINT_COLOUR = (44, 48, 56)
 _CONTACT_COLOUR = (52, 199, 129)
 _SWING_COLOUR = (236, 236, 240)
+_STILL = {"cast_shadow": False, "receive_shadow": False}
 
 
 class RobotFigure:
@@ -36,14 +38,8 @@ class RobotFigure:
         self._add_body(scene, name)
         frames = joint_frames_in_body(robot, np.zeros(robot.joint_count))
         self._first = visible_links(frames)
-        positions, wxyzs, lengths = segments(frames, self._first)
-        vertices, faces = prism()
-        scales = np.stack([np.full(lengths.size, LINK_WIDTH), np.full(lengths.size, LINK_WIDTH), lengths], axis=1)
-        shape = {"lod": "off", "cast_shadow": False, "receive_shadow": False}
-        self._links = scene.add_batched_meshes_simple(
-            f"{name}/links", vertices, faces, wxyzs, positions,
-            batched_scales=scales, batched_colors=_LINK_COLOUR, flat_shading=True, **shape,
-        )  # fmt: skip
+        self._links = add_links(scene, f"{name}/links", frames, LINK_WIDTH, _LINK_COLOUR, **_STILL)
+        shape = {"lod": "off", **_STILL}
         ball, ball_faces = octasphere()
         joints = frames[:, :-1, :3, 3].reshape(-1, 3)
         self._joints = scene.add_batched_meshes_simple(
@@ -60,17 +56,16 @@ class RobotFigure:
 
     def _add_body(self, scene: Any, name: str) -> None:
         robot = self._robot
-        still = {"cast_shadow": False, "receive_shadow": False}
         scene.add_box(f"{name}/body", color=_BODY_COLOUR, dimensions=robot.body.size, position=robot.body.box_in_body,
-                      **still)  # fmt: skip
+                      **_STILL)  # fmt: skip
         if robot.has_camera:
             eyes = robot.camera
             scene.add_box(f"{name}/eyes", color=_EYE_COLOUR, dimensions=(eyes.baseline + 0.04, 0.035, 0.03),
-                          wxyz=eyes.body_from_left.wxyz, position=eyes.position_in_body, **still)  # fmt: skip
+                          wxyz=eyes.body_from_left.wxyz, position=eyes.position_in_body, **_STILL)  # fmt: skip
         top = robot.body.box_in_body[2] + 0.5 * robot.body.size[2]
         stripe = (0.12 * robot.body.size[0], 0.9 * robot.body.size[1], 0.004)
         place = (0.42 * robot.body.size[0], 0.0, top)
-        scene.add_box(f"{name}/front", color=_LINK_COLOUR, dimensions=stripe, position=place, **still)
+        scene.add_box(f"{name}/front", color=_LINK_COLOUR, dimensions=stripe, position=place, **_STILL)
 
     def torque(self, torque: Array | None) -> None:
         """Colour every joint and the link it moves by its share of the servo's stall torque; None as usual."""

@@ -217,6 +217,11 @@ class RobotDescription(Part):
         """How far beside a straight way its feet are set, m."""
         return float(np.abs(self.stance_in_body[:, 1]).max()) + self.foot_radius
 
+    @property
+    def foot_circle(self) -> float:
+        """Radius of the circle about its middle that holds its standing feet, however it turns, m."""
+        return float(np.hypot(*self.stance_in_body[:, :2].T).max()) + self.foot_radius
+
 
 def _unique(key: str, names: list[str]) -> None:
     for name in names:

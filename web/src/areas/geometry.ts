@@ -1,4 +1,4 @@
-/** Whether a way comes into forbidden ground, as the robot judges it (robot_agent/forbidden_areas.py). Pure. */
+/** Whether a way comes into forbidden ground, as the robot judges it (robot_agent/navigation/keep_out.py). Pure. */
 import type { Waypoint } from "../protocol/messages";
 import type { Area } from "./area";
 

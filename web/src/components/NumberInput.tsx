@@ -1,5 +1,6 @@
-/** A number in a text field, taken over with Enter or on leaving the field; nonsense is put back. */
-import { useEffect, useState } from "react";
+/** A number in a text field, taken over with Enter or on leaving the field; nonsense is put back. A value
+ *  that changes by itself does not change what is being typed. */
+import { useState } from "react";
 import { fixed } from "./format";
 
 interface NumberInputProps {
@@ -13,24 +14,24 @@ interface NumberInputProps {
 
 export function NumberInput({ label, value, digits, disabled = false, title, onCommit }: NumberInputProps) {
   const shown = fixed(value, digits);
-  const [text, setText] = useState(shown);
-  useEffect(() => setText(shown), [shown]);
+  /** null while nobody types. */
+  const [typed, setTyped] = useState<string | null>(null);
   const commit = () => {
-    const entered = Number(text.replace(",", "."));
-    if (text.trim() === "" || !Number.isFinite(entered) || text === shown) setText(shown);
-    else onCommit(entered);
+    setTyped(null);
+    const entered = Number(typed?.replace(",", ".").trim() || NaN);
+    if (Number.isFinite(entered) && typed !== shown) onCommit(entered);
   };
   return (
     <input
       type="text"
       inputMode="decimal"
       aria-label={label}
-      value={text}
+      value={typed ?? shown}
       disabled={disabled}
       title={title}
-      onChange={(event) => setText(event.currentTarget.value)}
+      onChange={(event) => setTyped(event.currentTarget.value)}
       onBlur={commit}
-      onKeyDown={(event) => event.key === "Enter" && commit()}
+      onKeyDown={({ key }) => key === "Enter" && commit()}
     />
   );
 }

@@ -10,7 +10,7 @@ import { selectedRobot, useHindrance } from "../console/control";
 import { notify } from "../console/notices";
 import { useConsole } from "../console/store";
 import { useLatest } from "../console/useLatest";
-import { type Setting, found, ofParameter, ofPose, outside } from "./settings";
+import { HELD, type Setting, found, ofParameter, ofPose, outside } from "./settings";
 
 export function SettingsPanel() {
   const [search, setSearch] = useState("");
@@ -25,6 +25,7 @@ export function SettingsPanel() {
         value={search}
         onChange={(event) => setSearch(event.currentTarget.value)}
       />
+      <p className="hint">A parameter of the adaptation that is set here is held for {HELD / 60} minutes.</p>
       {shown.length === 0 && <p className="empty">No setting has such a name.</p>}
       <ul aria-label="Settings" role="list">
         {shown.map((setting) => (

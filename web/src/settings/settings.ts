@@ -17,7 +17,7 @@ export interface Setting {
 }
 
 /** s that a value set here replaces the adapted one. */
-const HELD = 300;
+export const HELD = 300;
 
 export function ofParameter({ name, label, unit, digits, lower, upper }: Parameter, value: number | null): Setting {
   const fields = (shown: number) => ({ name, value: shown, seconds: HELD });
