@@ -31,13 +31,19 @@ test.each([
   ["reading all servos takes longer than a tick leaves", /doctor/],
   ["stopped by the operator", /Release the stop/],
   ["held for 60 s", /sits down by itself/],
+  ["the direction of gravity is missing", /IMU/],
 ])("what the robot says, %s, has advice of its own", (reason, wanted) => {
   expect(adviceFor(reason)).toMatch(wanted);
 });
 
 test("a warm servo, a low battery and a slow computer are told before the robot acts", () => {
-  const texts = alertsOf({ ...CALM, temperature: 66, battery: 0.1, pace: 0.4 }).map(({ text }) => text);
-  expect(texts).toEqual([
+  const alerts = alertsOf({ ...CALM, temperature: 66, battery: 0.1, pace: 0.4 });
+  expect(alerts.map(({ advice }) => advice)).toEqual([
+    expect.stringMatching(/rest/),
+    expect.stringMatching(/Bring it home/),
+    expect.stringMatching(/too slow for this world/),
+  ]);
+  expect(alerts.map(({ text }) => text)).toEqual([
     "a servo is at 66 °C",
     "the battery is at 10 %",
     "simulated time runs slower: 0.40 of real time",

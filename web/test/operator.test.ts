@@ -37,7 +37,7 @@ describe("alerts", () => {
 
   it("say what to do", () => {
     const found = alertsOf({ reasons: ["tilted by 38 degrees"], temperature: 70, battery: 0.1, pace: 0.5, odometry: "lost" });
-    expect(found.map(({ advice }) => advice.split(/[ ;:,]/)[0])).toEqual(["Drive", "Let", "Bring", "It", "Wait"]);
+    expect(found.map(({ advice }) => advice.split(/[ ;:,]/)[0])).toEqual(["Drive", "Let", "Bring", "The", "Wait"]);
     expect(alertsOf({ ...well, reasons: ["something else"] })[0]!.advice).not.toBe("");
   });
 });

@@ -14,7 +14,7 @@ const ADVICE: readonly (readonly [RegExp, string])[] = [
   [/is stuck/i, `${WATCH_IT} Free the leg: until then its motor keeps a third of its torque.`],
   [/has stopped: nothing was heard/i, "It goes on softly by itself; if it comes again, the computer is too busy."],
   [/celsius|°C/i, `Let it rest; it sits down at ${HOT} °C.`],
-  [/IMU|attitude/i, `It can not walk without its IMU. ${WIRES}`],
+  [/\bIMU\b|attitude|gravity/, `It can not walk without its IMU. ${WIRES}`],
   [/power monitor/i, "Watch the battery yourself; it sits down after 5 s. Check the monitor's cable."],
   [/longer than a tick/i, "Expect it to walk less well until that is set; `weaver doctor` tells where."],
   [/servo|bus .* is down|supply/i, WIRES],
