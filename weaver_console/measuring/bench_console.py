@@ -32,8 +32,9 @@ TRIAL = {
     "command_ms": {"p50": 2.0, "p99": 9.0},
     "terrain_update_kb": 96.0,
     "cpu_percent_of_a_core_with_4_pages": 25.0,
+    "usable_ms": 2000.0,
 }
-"""What was measured of a first attempt of this console, and what this one is to keep under."""
+"""Measured of a first attempt of this console, which this one is to keep under; and how soon a page is to be of use."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
