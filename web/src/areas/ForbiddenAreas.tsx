@@ -1,7 +1,10 @@
-/** Ground that missions must keep out of: drawn corner by corner on map or 3-D view, or by keys. */
+/** Ground that the robot must keep out of: drawn corner by corner on map or 3-D view, or by keys. */
 import { Button } from "@mantine/core";
+import { useHindrance } from "../console/control";
 import { useDraft } from "../mission/draftStore";
+import { sameAreas } from "./area";
 import { canFinish, finishArea, startArea, undoCorner, useAreas } from "./areaStore";
+import { sendAreas } from "./sharing";
 
 export function ForbiddenAreas() {
   const state = useAreas();
@@ -49,6 +52,33 @@ export function ForbiddenAreas() {
           ))}
         </ul>
       )}
+      <Binding />
+    </div>
+  );
+}
+
+/** Whether the robot holds the areas as they are drawn. */
+function Binding() {
+  const onRobot = useAreas((state) => state.onRobot);
+  const areas = useDraft((state) => state.draft.areas);
+  const hindrance = useHindrance("set_areas");
+  if (sameAreas(areas, onRobot)) {
+    return areas.length === 0 ? null : (
+      <p className="hint">The robot keeps out of them, also when it is driven by hand.</p>
+    );
+  }
+  return (
+    <div className="button-row">
+      <span className="tag tag-caution">! Areas not on the robot</span>
+      <Button
+        size="compact-xs"
+        variant="default"
+        disabled={hindrance !== null}
+        title={hindrance ?? undefined}
+        onClick={() => void sendAreas()}
+      >
+        Send areas
+      </Button>
     </div>
   );
 }

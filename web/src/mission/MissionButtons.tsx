@@ -1,8 +1,7 @@
 /** Start, pause, skip, return and clear. Starting sends what the robot has not got yet. */
 import { Button } from "@mantine/core";
-import { sameAreas } from "../areas/area";
-import { useAreas } from "../areas/areaStore";
 import { forbiddenReason } from "../areas/geometry";
+import { sendAreas } from "../areas/sharing";
 import { CommandButton } from "../components/CommandButton";
 import { command } from "../console/commands";
 import { selectedRobot, useHindrance } from "../console/control";
@@ -10,15 +9,6 @@ import { useConsole } from "../console/store";
 import { useLatest } from "../console/useLatest";
 import { positionOf } from "../map/strokes";
 import { useDraft } from "./draftStore";
-
-/** The robot gets the areas before the mission, so that it judges the mission by them. */
-async function uploadAreas(): Promise<boolean> {
-  const { areas } = useDraft.getState().draft;
-  const { onRobot } = useAreas.getState();
-  if (sameAreas(areas, onRobot)) return true;
-  const name = areas.map((area) => area.length).join(" ");
-  return (await command("set_areas", { name, waypoints: areas.flat() })).accepted;
-}
 
 /** Why the edited way is refused here already; the robot judges for itself once more. */
 function useForbidden(): string | null {
@@ -45,8 +35,9 @@ export function MissionButtons({ unsent }: { unsent: boolean }) {
   const active = mission?.phase === "active";
   const empty = draft.waypoints.length === 0;
 
+  // The areas first, so that the robot judges the mission by them.
   const upload = async () =>
-    (await uploadAreas()) && (await command("set_mission", { waypoints: draft.waypoints })).accepted;
+    (await sendAreas()) && (await command("set_mission", { waypoints: draft.waypoints })).accepted;
   const start = async () => {
     // NOTE: a mission that was walked is sent again, the robot does not repeat one by itself.
     if ((!unsent && mission?.phase !== "done") || (await upload())) await command("start_mission");

@@ -1,6 +1,8 @@
 /** The one draft of this page, shared by list, map and 3-D view. Each change is shown in the 3-D view too. */
 import { create } from "zustand";
+import { sameAreas } from "../areas/area";
 import { useAreas } from "../areas/areaStore";
+import { shareAreas } from "../areas/sharing";
 import { send } from "../console/outbox";
 import type { Waypoint } from "../protocol/messages";
 import { type Draft, type DraftAction, EMPTY_DRAFT, reduceDraft } from "./draft";
@@ -29,8 +31,10 @@ export const useDraft = create<DraftStore>((set, get) => ({
   dragging: null,
   onRobot: [],
   dispatch(action) {
+    const { areas } = get().draft;
     set(({ draft }) => ({ draft: reduceDraft(draft, action), dragging: null }));
     get().publish();
+    if (action.type !== "adopt" && !sameAreas(areas, get().draft.areas)) shareAreas();
   },
   drag(index, waypoint, done) {
     if (done) get().dispatch({ type: "place", index, waypoint });
