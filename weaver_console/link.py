@@ -63,6 +63,9 @@ ELSEWHERE = {
 }
 """Commands that another process of the robot than the walking one carries out; they need no control of it."""
 
+REPLAYING = "replay"
+"""Process that replays a recording as a robot of its own."""
+
 ELSEWHERE_TIMEOUT = 3.0
 """s; those have disks and pictures to wait for."""
 
@@ -128,7 +131,10 @@ class Link:
         if heard == record.alive:
             return
         record.alive = heard
-        if heard:
+        if record.replays:
+            text = "the replay runs" if heard else "the replay has ended"
+            self.events.add(record.robot_id, Severity.INFO, "console", text)
+        elif heard:
             self.events.add(record.robot_id, Severity.INFO, "console", f"{record.robot_id} is connected")
         else:
             text = f"{record.robot_id} is lost: no heartbeat for 1 s"
@@ -188,10 +194,11 @@ class Link:
                 return
             if came:
                 record.processes.add(process)
-                self.events.add(robot_id, Severity.INFO, "console", f"process {process} of {robot_id} is there")
             else:
                 record.processes.discard(process)
-                self.events.add(robot_id, Severity.ERROR, "console", f"process {process} of {robot_id} is gone")
+            if process != REPLAYING:  # which is no loss, and tells of itself
+                severity, word = (Severity.INFO, "there") if came else (Severity.ERROR, "gone")
+                self.events.add(robot_id, severity, "console", f"process {process} of {robot_id} is {word}")
 
 
 def _description(name: str) -> RobotDescription | None:

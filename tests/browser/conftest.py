@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 from full_robot import FullRobot
+from PIL import Image
 from visitors import CHROMIUM, DESK, ROBOT_ID, WITHOUT_WEBGL, Visitor
 
 from weaver_console import built_page
@@ -126,9 +127,17 @@ def visit(chromium: Callable[..., Any], stage: Stage) -> Iterator[Callable[..., 
 
 
 @pytest.fixture
-def picture(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Visitor, str], None]:
-    """Keeps what the page looks like under a name."""
+def picture(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., None]:
+    """Keeps what the page, or a part of it, looks like under a name; in the guide's folder with 256 colours."""
     named = os.environ.get(PICTURES)
     folder = Path(named) if named else tmp_path_factory.getbasetemp() / "pictures"
     folder.mkdir(parents=True, exist_ok=True)
-    return lambda visitor, name: visitor.page.screenshot(path=folder / f"{name}.png", timeout=60_000)
+
+    def keep(visitor: Visitor, name: str, part: Any = None) -> None:
+        path = folder / f"{name}.png"
+        (visitor.page if part is None else part).screenshot(path=path, timeout=60_000, animations="disabled")
+        if named:
+            with Image.open(path) as taken:
+                taken.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
+
+    return keep

@@ -31,7 +31,7 @@ def _faults(visitor: Any) -> list[str]:
 @pytest.mark.skipif(not AXE.exists(), reason="axe-core is not installed")
 @pytest.mark.parametrize(("theme", "size"), [("light", DESK), ("dark", DESK), ("dark", PHONE)])
 def test_axe_finds_nothing_serious(
-    visit: Callable[..., Any], theme: str, size: tuple[int, int], picture: Callable[[Any, str], None]
+    visit: Callable[..., Any], theme: str, size: tuple[int, int], picture: Callable[..., None]
 ) -> None:
     anna = visit(color_scheme=theme, size=size)
     anna.stand()

@@ -16,7 +16,7 @@ def test_control_is_asked_for_and_handed_over(
     ben.press("Ask for control")
     request = anna.page.get_by_role("group", name="Request of ben")
     request.wait_for()
-    picture(anna, "request-for-control")
+    picture(anna, "request-for-control", anna.page.locator(".page > header"))
     request.get_by_role("button", name="Decline").click()
     ben.page.get_by_text("anna keeps control").wait_for()
     assert stage.robot.holder == "anna"

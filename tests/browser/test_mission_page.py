@@ -15,7 +15,7 @@ pytestmark = pytest.mark.browser
 
 
 def test_a_way_through_forbidden_ground_is_refused_until_the_area_is_gone(
-    visit: Callable[..., Any], stage: Any, picture: Callable[[Any, str], None]
+    visit: Callable[..., Any], stage: Any, picture: Callable[..., None]
 ) -> None:
     anna = visit()
     anna.stand()
@@ -57,17 +57,49 @@ def test_a_way_through_forbidden_ground_is_refused_until_the_area_is_gone(
     for _ in range(2):
         map_of(anna).press("Delete")
     anna.page.mouse.click(*within(box, 0.5, 0.2))
-    stage.robot.speed = 0.02  # it is still under way when the page has shown it, however busy the computer is
     anna.press("Start mission")
     anna.see_state("WALK")
     assert [len(area) for area in stage.robot.areas] == [3]
+    names = [command.command for command in stage.robot.commands]
+    wanted = [CommandName.SET_AREAS, CommandName.SET_MISSION, CommandName.START_MISSION]
+    assert [name for name in names if name in wanted][-3:] == wanted
+
+
+def test_an_area_drawn_without_control_waits_to_be_sent(visit: Callable[..., Any], stage: Any) -> None:
+    anna = visit()
+    box = map_of(anna).bounding_box()
+    anna.press("Forbid an area")
+    for across, down in ((0.6, 0.4), (0.7, 0.4), (0.7, 0.6)):
+        anna.page.mouse.click(*within(box, across, down))
+    anna.press("Close area")
+    anna.page.get_by_text("Areas not on the robot").wait_for()
+    assert anna.button("Send areas").is_disabled()
+    assert not stage.robot.areas
+    anna.take_control()
+    anna.press("Send areas")
+    anna.page.get_by_text("The robot keeps out of them").wait_for()
+    assert [len(area) for area in stage.robot.areas] == [3]
+
+
+def test_a_mission_is_followed_paused_skipped_and_walked_back(
+    visit: Callable[..., Any], stage: Any, picture: Callable[..., None]
+) -> None:
+    anna = visit()
+    anna.stand()
+    box = map_of(anna).bounding_box()
+    anna.page.mouse.click(*within(box, 0.85, 0.5))
+    anna.waypoints.first.wait_for()
+    stage.robot.speed = 0.02  # it is still under way when the page has shown it, however busy the computer is
+    anna.press("Start mission")
+    anna.see_state("WALK")
     anna.page.locator(".mission .reading", has_text="Cross-track error").filter(has_text="0.01").wait_for()
     anna.page.get_by_text("under way, waypoint 1 of 1").wait_for()
+    picture(anna, "under-way", anna.part("Mission"))
     anna.press("Pause mission")
     anna.see_state("STAND")
     names = [command.command for command in stage.robot.commands]
-    wanted = [CommandName.SET_AREAS, CommandName.SET_MISSION, CommandName.START_MISSION, CommandName.PAUSE_MISSION]
-    assert [name for name in names if name in wanted][-4:] == wanted
+    wanted = [CommandName.SET_MISSION, CommandName.START_MISSION, CommandName.PAUSE_MISSION]
+    assert [name for name in names if name in wanted] == wanted
     log = anna.page.get_by_role("log", name="Events")
     for button, command in (("Skip waypoint", "skip_waypoint"), ("Return to start", "return_to_start")):
         anna.press(button)

@@ -35,7 +35,7 @@ def _wait(visitor: Any, holds: Callable[[], bool]) -> None:
 
 
 def test_driving_by_keys_and_gamepad_ends_when_the_hand_leaves(
-    visit: Callable[..., Any], driven: list[TeleopFrame]
+    visit: Callable[..., Any], driven: list[TeleopFrame], picture: Callable[..., None]
 ) -> None:
     anna = visit()
     anna.stand()
@@ -44,6 +44,7 @@ def test_driving_by_keys_and_gamepad_ends_when_the_hand_leaves(
     anna.page.keyboard.down("Shift")
     anna.page.keyboard.down("w")
     _wait(anna, lambda: any(frame.dead_man and 0.05 < frame.forward <= 0.5 for frame in driven))
+    picture(anna, "driving", anna.part("Drive by hand"))
     anna.page.keyboard.up("w")
     anna.page.keyboard.up("Shift")
     _wait(anna, lambda: not driven[-1].dead_man)
@@ -54,9 +55,12 @@ def test_driving_by_keys_and_gamepad_ends_when_the_hand_leaves(
     anna.page.evaluate("window.pad.connected = false; window.dispatchEvent(new Event('gamepaddisconnected'))")
     _wait(anna, lambda: not driven[-1].dead_man)
     anna.page.get_by_text(re.compile("^Round trip [0-9]+ ms")).wait_for()
+    picture(anna, "body", anna.part("Body and legs"))
 
 
-def test_the_adaptation_shows_where_on_its_polynomials_the_robot_is(visit: Callable[..., Any], stage: Any) -> None:
+def test_the_adaptation_shows_where_on_its_polynomials_the_robot_is(
+    visit: Callable[..., Any], stage: Any, picture: Callable[..., None]
+) -> None:
     anna = visit()
     anna.stand()
     group = anna.page.get_by_role("group", name="Adaptation")
@@ -71,6 +75,8 @@ def test_the_adaptation_shows_where_on_its_polynomials_the_robot_is(visit: Calla
     _wait(anna, lambda: abs(stage.robot.overrides.get("stride_height", 0.0) - 0.1) < 1e-6)
     asked = [command for command in stage.robot.commands if command.name == "stride_height"]
     assert {command.seconds for command in asked} == {60.0}
+    group.get_by_text("0.100").first.wait_for()
+    picture(anna, "adaptation", anna.part("Adaptation"))
 
 
 def test_paper_mode_is_asked_of_the_robot_and_shown_as_it_reports_it(visit: Callable[..., Any], stage: Any) -> None:
@@ -88,7 +94,9 @@ def test_paper_mode_is_asked_of_the_robot_and_shown_as_it_reports_it(visit: Call
     assert not mode.is_checked()
 
 
-def test_a_setting_is_found_and_set_within_its_bounds(visit: Callable[..., Any], stage: Any) -> None:
+def test_a_setting_is_found_and_set_within_its_bounds(
+    visit: Callable[..., Any], stage: Any, picture: Callable[..., None]
+) -> None:
     anna = visit()
     anna.stand()
     anna.page.get_by_role("searchbox", name="Search settings").fill("height")
@@ -103,10 +111,12 @@ def test_a_setting_is_found_and_set_within_its_bounds(visit: Callable[..., Any],
     field.fill("0.1")
     field.press("Enter")
     _wait(anna, lambda: stage.robot.overrides.get("stride_height") == 0.1)
+    _wait(anna, lambda: field.input_value() == "0.100")
+    picture(anna, "settings", anna.part("Settings"))
 
 
 def test_tracked_features_are_drawn_over_the_picture_when_asked_for(
-    visit: Callable[..., Any], picture: Callable[[Any, str], None]
+    visit: Callable[..., Any], picture: Callable[..., None]
 ) -> None:
     anna = visit()
     anna.page.get_by_role("img", name="Picture of camera left").wait_for()
@@ -118,11 +128,11 @@ def test_tracked_features_are_drawn_over_the_picture_when_asked_for(
     assert (circles.count("M"), crosses.count("M")) == (16, 3)
     assert "a" in circles
     assert "a" not in crosses
-    picture(anna, "features")
+    picture(anna, "features", anna.page.locator(".camera").filter(has=marks))
 
 
 def test_joints_alerts_and_pictures_are_there(
-    visit: Callable[..., Any], stage: Any, picture: Callable[[Any, str], None]
+    visit: Callable[..., Any], stage: Any, picture: Callable[..., None]
 ) -> None:
     anna = visit()
     assert anna.page.get_by_role("list", name="Alerts").count() == 0
@@ -137,7 +147,8 @@ def test_joints_alerts_and_pictures_are_there(
     rows.last.filter(has_text=re.compile(r"76 hot\s*none")).wait_for()
     rows.filter(has_text=re.compile("[67][0-9] warm")).first.wait_for()
     rows.nth(1).filter(has_text="! has shut down: overload").wait_for()
-    picture(anna, "joints")
+    anna.page.set_viewport_size({"width": 1440, "height": 2000})
+    picture(anna, "joints", anna.part("Robot"))
     stage.robot.temperature, stage.robot.real_time_factor = 71.0, 0.4
     alerts = anna.page.get_by_role("list", name="Alerts")
     alerts.get_by_text("a servo is at 71 °C").wait_for()
@@ -145,4 +156,4 @@ def test_joints_alerts_and_pictures_are_there(
     alerts.get_by_text("simulated time runs slower").wait_for()
     anna.page.get_by_role("img", name="Picture of camera left").wait_for()
     anna.page.get_by_role("img", name=re.compile("^Gait diagram, in swing")).wait_for()
-    picture(anna, "panels")
+    picture(anna, "health", anna.part("Health"))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from visitors import PHONE, ROBOT_ID
+from visitors import DESK, PHONE, ROBOT_ID
 from wire_robot import WireRobot
 
 from weaver_shared.messages import Waypoint
@@ -75,11 +75,11 @@ def test_nobody_leaves_a_robot_that_walks_under_them(
     anna.page.get_by_text("Emulated servo bus").wait_for()
 
 
-@pytest.mark.parametrize("size", [(1440, 900), PHONE], ids=["desk", "phone"])
+@pytest.mark.parametrize("size", [DESK, PHONE], ids=["desk", "phone"])
 def test_a_real_robot_is_taken_only_after_a_look_at_it(
     visit: Callable[..., Any],
     joined: Callable[[str, str], WireRobot],
-    picture: Callable[[Any, str], None],
+    picture: Callable[..., None],
     size: tuple[int, int],
 ) -> None:
     anna = visit("anna", size=size)
@@ -90,7 +90,8 @@ def test_a_real_robot_is_taken_only_after_a_look_at_it(
     dialog = anna.page.get_by_role("dialog")
     dialog.get_by_text("Battery:").wait_for()
     dialog.get_by_text("Self-test: nothing is wrong").wait_for()
-    picture(anna, f"real-robot-{size[0]}")
+    anna.button("Yes, it is real").click(trial=True)  # has come to rest
+    picture(anna, f"real-robot-{size[0]}", dialog if size == DESK else None)
     anna.press("Leave it")
     dialog.wait_for(state="hidden")
     assert real.holder == ""

@@ -19,7 +19,7 @@ FIELD_OF_VIEW = np.deg2rad(75.0)  # viser's, vertical
 FLAT_PLACE = (1.0, 0.0)
 
 
-def test_the_map_is_edited_by_mouse_and_by_keys(visit: Callable[..., Any], picture: Callable[[Any, str], None]) -> None:
+def test_the_map_is_edited_by_mouse_and_by_keys(visit: Callable[..., Any], picture: Callable[..., None]) -> None:
     anna = visit()
     box = map_of(anna).bounding_box()
     for across in (0.6, 0.8):
@@ -50,7 +50,7 @@ def test_layers_have_legends_with_units_and_unknown_ground_apart(visit: Callable
 
 
 def test_a_distance_is_measured_and_the_map_saved_as_a_picture(
-    visit: Callable[..., Any], picture: Callable[[Any, str], None]
+    visit: Callable[..., Any], picture: Callable[..., None]
 ) -> None:
     anna = visit()
     anna.press("View options")
@@ -72,7 +72,7 @@ def test_a_distance_is_measured_and_the_map_saved_as_a_picture(
     assert saved.value.suggested_filename.startswith("weaver_map_")
 
 
-def test_a_tap_on_a_phone_places_a_waypoint(visit: Callable[..., Any], picture: Callable[[Any, str], None]) -> None:
+def test_a_tap_on_a_phone_places_a_waypoint(visit: Callable[..., Any], picture: Callable[..., None]) -> None:
     anna = visit(size=PHONE, has_touch=True, is_mobile=True)
     map_of(anna).scroll_into_view_if_needed()
     anna.page.touchscreen.tap(*within(map_of(anna).bounding_box(), 0.6, 0.4))
@@ -97,7 +97,7 @@ def _ground(x: float, y: float, above: float = 0.0) -> np.ndarray:
 
 
 def test_the_3d_view_places_and_drags_waypoints_and_stops_by_key(
-    visit: Callable[..., Any], stage: Any, picture: Callable[[Any, str], None]
+    visit: Callable[..., Any], stage: Any, picture: Callable[..., None]
 ) -> None:
     anna = visit(scene=True, size=DESK)
     robot = stage.robot.state(0).position_in_world

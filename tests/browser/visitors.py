@@ -53,6 +53,10 @@ class Visitor:
     def press(self, name: str | re.Pattern[str]) -> None:
         self.button(name).click()
 
+    def part(self, name: str) -> Any:
+        """A titled part of the page."""
+        return self.page.locator("section.panel").filter(has=self.page.get_by_role("heading", name=name, exact=True))
+
     def take_control(self) -> None:
         self.press("Take control")
         self.button("Release control").wait_for()

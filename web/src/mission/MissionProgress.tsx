@@ -16,11 +16,12 @@ const PHASES: Record<MissionState["phase"], string> = {
 
 export function MissionProgress() {
   const mission = useLatest(KEY);
+  const way = mission?.phase === "empty" ? undefined : mission;
   return (
     <div className="readings">
       <Reading label="Mission on robot" source={KEY} value={mission === undefined ? UNKNOWN : described(mission)} />
-      <Reading label="Distance left" source={KEY} value={fixed(mission?.distance_left, 2)} unit="m" />
-      <Reading label="Cross-track error" source={KEY} value={fixed(mission?.cross_track_error, 2)} unit="m" />
+      <Reading label="Distance left" source={KEY} value={fixed(way?.distance_left, 2)} unit="m" />
+      <Reading label="Cross-track error" source={KEY} value={fixed(way?.cross_track_error, 2)} unit="m" />
     </div>
   );
 }

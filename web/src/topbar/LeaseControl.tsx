@@ -34,6 +34,13 @@ export function LeaseControl() {
     else setAsking(true);
   };
 
+  if (robot?.kind === "REPLAY") {
+    return (
+      <div className="lease">
+        <span className="lease-holder">{owner === "" ? "Nobody had control" : `${owner} had control`}</span>
+      </div>
+    );
+  }
   return (
     <div className="lease">
       <span className="lease-holder" data-held={held && connected}>
