@@ -21,6 +21,7 @@ from robot_agent.hardware.power_monitor import SEQUENCES, PowerParser, PowerReco
 from robot_agent.hardware.servos.group_answer import GroupAnswer
 from robot_agent.hardware.servos.health_block import READ_TYPE, plausible
 from robot_agent.hardware.servos.packet import encode_status
+from robot_agent.hardware.servos.registers import ANSWERS_ALL
 from sim_agent.sensor_lines import EmulatedGx3, EmulatedGx5
 from sim_agent.wire_noise import KINDS, ONE_PLACE, damaged
 
@@ -42,10 +43,9 @@ def fuzz_servos(records: int, seed: int, kinds: Sequence[str] = KINDS) -> FuzzCo
     values = np.random.default_rng(seed)
     ids = list(range(1, GROUP + 1))
     group = GroupAnswer(ids, READ_TYPE.itemsize)
-    names = np.array(ids, dtype=np.uint8)
     spoilt = wrong = sound = lost = 0
     while spoilt < records:
-        sent = _blocks(names, values)
+        sent = answers_in_motion(len(ids), values)
         group.begin()
         hit = []
         for servo, block in zip(ids, sent, strict=True):
@@ -54,7 +54,7 @@ def fuzz_servos(records: int, seed: int, kinds: Sequence[str] = KINDS) -> FuzzCo
             group.feed(damaged(wire, generator.choice(kinds), generator) if hit[-1] else wire)
         valid = group.finish()
         got = group.data.view(READ_TYPE)[:, 0]
-        believed = valid & plausible(got, names)
+        believed = valid & plausible(got)
         was_hit = np.array(hit)
         wrong += int(np.sum(believed & ((got != sent) | (group.error != 0))))
         spoilt += int(was_hit.sum())
@@ -137,15 +137,15 @@ def _as_sent(stamp_ns: int, force: np.ndarray, rate: np.ndarray) -> InertialReco
     return InertialRecord(stamp_ns, (fx, fy, fz), (wx, wy, wz))
 
 
-def _blocks(ids: np.ndarray, values: np.random.Generator) -> np.ndarray:
-    """What healthy servos in motion answer, READ_TYPE (n,)."""
-    blocks = np.zeros(ids.size, dtype=READ_TYPE)
-    blocks["id"] = ids
+def answers_in_motion(count: int, values: np.random.Generator) -> np.ndarray:
+    """What healthy servos in motion answer, READ_TYPE (count,)."""
+    blocks = np.zeros(count, dtype=READ_TYPE)
     blocks["torque_on"] = 1
     blocks["watchdog"] = 10
-    blocks["current"] = values.integers(-900, 900, ids.size)
-    blocks["velocity"] = values.integers(-200, 200, ids.size)
-    blocks["position"] = values.integers(0, 4096, ids.size)
-    blocks["voltage"] = values.integers(140, 150, ids.size)
-    blocks["temperature"] = values.integers(25, 60, ids.size)
+    blocks["current"] = values.integers(-900, 900, count)
+    blocks["velocity"] = values.integers(-200, 200, count)
+    blocks["position"] = values.integers(0, 4096, count)
+    blocks["voltage"] = values.integers(140, 150, count)
+    blocks["temperature"] = values.integers(25, 60, count)
+    blocks["return_level"] = ANSWERS_ALL
     return blocks

@@ -104,6 +104,8 @@ class ControlTable:
         if plan is None:
             plan = self._plans[address, len(data)] = _plan(self._meant[address : address + len(data)])
         if plan.points:
+            if not self._reaches_ram(plan, data):
+                return Fault.DATA_RANGE, []
             self._store(plan, data)
             self._point()
             return Fault.NONE, []
@@ -144,6 +146,15 @@ class ControlTable:
                 return -self[limit], self[limit]
         highest = self.model.current_limit if register is r.CURRENT_LIMIT else register.highest
         return register.lowest or 0, highest or 0
+
+    def _reaches_ram(self, plan: _Plan, data: bytes) -> bool:
+        """Indirect addresses range from 64 to 661: EEPROM can not be shown elsewhere (e-manual)."""
+        written = dict(zip(plan.cells, data, strict=True))
+        for low in {cell & ~1 for cell in plan.cells}:
+            target = written.get(low, self._bytes[low]) | written.get(low + 1, self._bytes[low + 1]) << 8
+            if not r.RAM_BEGINS <= target < r.END:
+                return False
+        return True
 
     def _store(self, plan: _Plan, data: bytes) -> None:
         for cell, value in zip(plan.cells, data, strict=True):

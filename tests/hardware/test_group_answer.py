@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from random import Random
 
 import numpy as np
 import pytest
 
-from robot_agent.hardware.servos.checksum import crc16_of_rows
-from robot_agent.hardware.servos.frame_reader import FrameReader
+from robot_agent.hardware.servos.checksum import crc16
 from robot_agent.hardware.servos.group_answer import GroupAnswer
 from robot_agent.hardware.servos.health_block import (
     READ,
@@ -18,8 +18,9 @@ from robot_agent.hardware.servos.health_block import (
     indirect_addresses,
     plausible,
 )
-from robot_agent.hardware.servos.packet import ALERT, encode_status
-from sim_agent.wire_fuzz import FUZZES
+from robot_agent.hardware.servos.packet import ALERT, HEADER, STATUS_OVERHEAD, Fault, encode_status
+from robot_agent.hardware.servos.registers import RAM_BEGINS, WATCHDOG_TRIPPED
+from sim_agent.wire_fuzz import FUZZES, answers_in_motion
 from sim_agent.wire_noise import damaged
 
 IDS = [3, 1, 2]
@@ -68,6 +69,11 @@ def test_the_alert_bit_is_kept() -> None:
     assert len(second) == len(first)
 
 
+def test_a_servo_that_found_a_fault_in_the_question_sends_no_values() -> None:
+    first, _, third = answers()
+    assert list(gathered(first, encode_status(1, Fault.ACCESS, bytes(10)), third).valid) == [True, False, True]
+
+
 def test_answers_out_of_order_find_their_servo() -> None:
     parts = [encode_status(servo, 0, bytes([servo] * 10)) for servo in (1, 2, 3)]
     assert list(gathered(*parts).data[:, 0]) == IDS
@@ -89,53 +95,88 @@ def test_blocks_are_as_long_as_the_registers_they_gather() -> None:
     assert len(indirect_addresses()) == 2 * (READ_TYPE.itemsize + WRITTEN_TYPE.itemsize)
 
 
+def test_blocks_show_ram_alone() -> None:
+    assert min(register.address for register in READ + WRITTEN) >= RAM_BEGINS
+
+
 def test_a_servo_that_lost_its_indirect_addresses_is_not_believed() -> None:
-    zeros = np.zeros(1, dtype=READ_TYPE)
-    assert not plausible(zeros, np.array([7], dtype=np.uint8))[0]
+    assert not plausible(np.zeros(1, dtype=READ_TYPE))[0]
 
 
-def slipped(count: int) -> bytes:
-    """Answers of which the first has lost (`count` < 0) or gained bytes so that a CRC fits by chance all the same."""
-    values = np.random.default_rng(3)
-    data = values.integers(0, 256, size=(400_000, 10), dtype=np.uint8)
-    empty, following, last = answers(data=bytes(10))
-    rows = np.tile(np.frombuffer(empty, dtype=np.uint8), (len(data), 1))
-    rows[:, 9:-2] = data
-    printed = crc16_of_rows(rows[:, :-2])
-    rows[:, -2], rows[:, -1] = printed & 0xFF, printed >> 8
-    if count < 0:
-        rows = np.delete(rows, range(12, 12 - count), axis=1)
-    else:
-        rows = np.insert(rows, [12] * count, values.integers(0, 256, size=(len(data), count), dtype=np.uint8), axis=1)
-    ahead = np.tile(np.frombuffer(following, dtype=np.uint8), (len(data), 1))
-    seen = np.hstack([rows, ahead])[:, : len(empty)]
-    fits = np.flatnonzero(crc16_of_rows(seen[:, :-2]) == seen[:, -2] | seen[:, -1].astype(np.uint16) << 8)
-    return rows[fits[0]].tobytes() + following + last
+def blocks(count: int) -> np.ndarray:
+    """Blocks of READ_TYPE, of which one in four is of a servo whose watchdog tripped."""
+    result = answers_in_motion(count, np.random.default_rng(5))
+    result["watchdog"][::4] = WATCHDOG_TRIPPED
+    return result
+
+
+def believed(packet: bytes) -> bool:
+    group = GroupAnswer(IDS[:1], READ_TYPE.itemsize)
+    group.begin()
+    group.feed(packet)
+    return bool((group.finish() & plausible(group.data.view(READ_TYPE)[:, 0]))[0])
+
+
+def missed_bursts(length: int) -> list[bytes]:
+    """All damages up to 16 bits in a row that the CRC of a packet of so many bytes can not tell."""
+    checked = length - 2
+    places = [(1 << bit).to_bytes(length, "little") for bit in range(8 * length)]
+    remainders = [crc16(place[:checked]) ^ int.from_bytes(place[checked:], "little") for place in places]
+    missed = []
+    for start in range(len(places)):
+        left = np.array(remainders[start : start + 1])
+        for remainder in remainders[start + 1 : start + 16]:
+            left = np.concatenate([left, left ^ remainder])
+        missed += [((2 * int(rest) + 1) << start).to_bytes(length, "little") for rest in np.flatnonzero(left == 0)]
+    return missed
+
+
+def test_every_burst_that_the_crc_can_not_tell_is_told_by_the_values() -> None:
+    sent = [encode_status(IDS[0], 0, block.tobytes()) for block in blocks(40)]
+    length = STATUS_OVERHEAD + READ_TYPE.itemsize
+    sent = [wire for wire in sent if len(wire) == length]  # stuffing puts another byte behind its burst
+    bursts = missed_bursts(length)
+    assert len(bursts) > 100
+    assert all(believed(wire) for wire in sent)
+    for burst in bursts:
+        for wire in sent:
+            assert not believed(bytes(a ^ b for a, b in zip(wire, burst, strict=True))), burst.hex()
 
 
 @pytest.mark.parametrize("count", [-3, -2, -1, 1, 2, 3])
-def test_an_answer_that_slipped_is_not_believed_though_its_crc_fits(count: int) -> None:
-    wire = slipped(count)
-    frames = FrameReader().feed(wire)
-    assert frames[0].id == IDS[0]  # by its CRC alone it would be
-    group = gathered(wire)
-    assert not group.valid[0]
-    assert group.valid[2]
+def test_values_of_an_answer_that_slipped_are_refused_whatever_its_crc(count: int) -> None:
+    values = np.random.default_rng(6)
+    size, refused = READ_TYPE.itemsize, 0
+    for block in blocks(400):
+        line = block.tobytes() + values.bytes(2) + HEADER
+        for place in range(size):
+            begun = line[:place] + (values.bytes(count) if count > 0 else b"")
+            seen = (begun + line[place - min(count, 0) :])[:size]
+            heard = np.frombuffer(seen, dtype=READ_TYPE)
+            good = bool(plausible(heard)[0])
+            assert not good or heard[0] == block, place
+            refused += not good
+    assert refused > 400 * (size - 3)
 
 
-def test_an_answer_cut_short_is_not_believed_with_the_next_ones_bytes() -> None:
-    first, second, third = answers()
-    length = len(first) - 9
-    for cut in range(4, 10):
-        values = np.random.default_rng(cut)
-        data = values.integers(0, 256, size=(400_000, 10 - cut + 2), dtype=np.uint8)
-        beginning = np.tile(np.frombuffer(first[:9], dtype=np.uint8), (len(data), 1))
-        ahead = np.tile(np.frombuffer(second, dtype=np.uint8), (len(data), 1))
-        seen = np.hstack([beginning, data, ahead])[:, : len(first)]
-        fits = np.flatnonzero(crc16_of_rows(seen[:, :-2]) == seen[:, -2] | seen[:, -1].astype(np.uint16) << 8)
-        wire = first[:9] + data[fits[0]].tobytes() + second + third
-        assert len(FrameReader().feed(wire)[0].content) == length, cut
-        assert not gathered(wire).valid[0], cut
+def test_values_of_an_answer_cut_short_are_refused_whatever_its_crc() -> None:
+    size = READ_TYPE.itemsize
+    sent = blocks(200)
+    for block, following in pairwise(sent):
+        for servo in (1, 2, 252):
+            ahead = encode_status(servo, 0, following.tobytes())
+            for place in range(size):
+                heard = np.frombuffer((block.tobytes()[:place] + ahead)[:size], dtype=READ_TYPE)
+                assert not plausible(heard)[0], place
+
+
+def test_a_damaged_tail_is_refused_though_its_crc_fits() -> None:
+    values = np.random.default_rng(7)
+    for block in blocks(2000):
+        for spoilt in range(1, 6):
+            tail = values.bytes(spoilt)
+            data = block.tobytes()[:-spoilt] + tail
+            assert not believed(encode_status(IDS[0], 0, data)) or data == block.tobytes()
 
 
 @pytest.mark.parametrize("kind", ["lost", "inserted", "bits", "burst", "byte", "cut"])

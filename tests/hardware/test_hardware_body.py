@@ -12,7 +12,9 @@ import pytest
 from hardware_bodies import Twin, order
 
 from robot_agent.hardware.joint_watch import JointState
+from robot_agent.hardware.servos import preparation
 from robot_agent.hardware.servos import registers as r
+from robot_agent.hardware.servos.health_block import indirect_addresses
 from sim_agent.servo_bus.servo import OVERLOADED
 from weaver_shared.config.hardware import ServoSettings
 from weaver_shared.errors import ResourceError
@@ -211,6 +213,22 @@ def test_a_wrong_model_is_refused_by_name(make_twin: Make) -> None:
     twin.servos.servos[2].table[r.MODEL_NUMBER] = 311
     with pytest.raises(ResourceError, match=r"AR_femur.*is MX-64 where the robot has MX-106"):
         twin.body.prepare()
+
+
+def test_a_servo_that_does_not_show_what_it_has_to_is_refused(make_twin: Make, monkeypatch: pytest.MonkeyPatch) -> None:
+    twin = make_twin()
+    eeprom = r.ID.address.to_bytes(2, "little")
+    monkeypatch.setattr(preparation, "indirect_addresses", lambda: eeprom + indirect_addresses()[2:])
+    with pytest.raises(ResourceError, match=r"AR_yaw.* refuses the places of its answer at address 168 \(error 4\)"):
+        twin.body.prepare()
+
+
+def test_a_servo_that_answers_reads_alone_is_made_to_answer_all(make_twin: Make) -> None:
+    twin = make_twin()
+    servo = twin.servos.servos[3]
+    servo.table[r.STATUS_RETURN_LEVEL] = 1
+    twin.body.prepare()
+    assert servo.table[r.STATUS_RETURN_LEVEL] == r.ANSWERS_ALL
 
 
 def test_old_firmware_is_refused(make_twin: Make) -> None:

@@ -235,7 +235,16 @@ def test_indirect_addresses_gather_a_block(bench: Bench) -> None:
     data, result, _ = SDK.readTxRx(bench.port, 6, READ_ADDRESS, READ_TYPE.itemsize)
     block = np.frombuffer(bytes(data), dtype=READ_TYPE)[0]
     assert result == COMM_SUCCESS
-    assert (block["id"], block["position"], block["temperature"], block["voltage"]) == (6, 2048, 25, 148)
+    assert (block["position"], block["temperature"], block["voltage"]) == (2048, 25, 148)
+    assert block["return_level"] == r.ANSWERS_ALL
+
+
+@pytest.mark.parametrize(("target", "fault"), [(r.ID.address, 4), (63, 4), (64, 0), (661, 0), (662, 4)])
+def test_indirect_addresses_reach_ram_alone(bench: Bench, target: int, fault: int) -> None:
+    places = [*indirect_addresses()[:4], *target.to_bytes(2, "little")]
+    before = SDK.readTxRx(bench.port, 6, r.INDIRECT_ADDRESSES, 6)[0]
+    assert SDK.writeTxRx(bench.port, 6, r.INDIRECT_ADDRESSES, 6, places) == (COMM_SUCCESS, fault)
+    assert SDK.readTxRx(bench.port, 6, r.INDIRECT_ADDRESSES, 6)[0] == (before if fault else places)
 
 
 def test_a_silent_servo_leaves_a_gap_or_silences_the_rest(bench: Bench) -> None:

@@ -111,7 +111,7 @@ class CyclicExchange:
         self.block = np.zeros(count, dtype=READ_TYPE)
         self.answered = np.zeros(count, dtype=np.bool_)
         self.forgetful = np.zeros(count, dtype=np.bool_)
-        """Who answered with another id than its own in its data: it has lost its RAM."""
+        """Who answered nothing but zeros: it has lost its RAM, and with it what to show."""
         self.alert = np.zeros(count, dtype=np.bool_)
         self.taken = 0.0
         """s of the last cycle."""
@@ -151,10 +151,9 @@ class CyclicExchange:
         group = bus.group
         sound = group.finish()
         heard = group.data.view(READ_TYPE)[:, 0] if len(group.ids) else np.zeros(0, dtype=READ_TYPE)
-        ids = np.array(group.ids, dtype=np.uint8)
         joints = bus.joints[bus.asked]
-        good = sound & plausible(heard, ids)
+        good = sound & plausible(heard)
         self.answered[joints] = good
-        self.forgetful[joints] = sound & (heard["id"] != ids)
+        self.forgetful[joints] = sound & ~group.data.any(axis=1)
         self.alert[joints[sound]] = group.error[sound] & 0x80 != 0
         self.block[joints[good]] = heard[good]

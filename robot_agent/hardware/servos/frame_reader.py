@@ -14,7 +14,6 @@ class FrameReader:
 
     def __init__(self) -> None:
         self._buffer = b""
-        self._passed = 0  # bytes fed before those in the buffer
         self.rejected = 0
         """Headers that no sound frame followed."""
 
@@ -44,13 +43,12 @@ class FrameReader:
                     break
                 end = None
             if end is not None and crc16(buffer[at : end - 2]) == int.from_bytes(buffer[end - 2 : end], "little"):
-                frames.append(Frame(buffer[at + 4], buffer[at + 7 : end - 2], self._passed + end))
+                frames.append(Frame(buffer[at + 4], buffer[at + 7 : end - 2]))
                 at = end
             else:
                 self.rejected += 1
                 at += len(HEADER)
         self._buffer = buffer[at:]
-        self._passed += at
         return frames
 
 

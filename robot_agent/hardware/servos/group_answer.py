@@ -1,21 +1,18 @@
 """Gathers the answers of many servos to one sync read: whoever answered soundly counts, whoever did not is marked.
 
-The SDK's group read gives up at the first servo that is missing and forgets the servos' error bytes.
+The SDK's group read gives up at the first servo that is missing and forgets the servos' error bytes. Sound is what has
+the form asked for and a CRC that fits; what a CRC can not tell, the values do (`health_block`).
 """
 
 from __future__ import annotations
-
-from operator import eq
 
 import numpy as np
 from numpy.typing import NDArray
 
 from robot_agent.hardware.servos.checksum import crc16_of_rows
 from robot_agent.hardware.servos.frame_reader import FrameReader
-from robot_agent.hardware.servos.packet import ENVELOPE, HEADER, STATUS_OVERHEAD, Frame, Instruction, Status, status_of
+from robot_agent.hardware.servos.packet import ALERT, HEADER, STATUS_OVERHEAD, Instruction, Status, status_of
 
-LONGEST_SLIP = 3
-"""Bytes lost or added in one place; with more the answer fails for its length."""
 _PAYLOAD = 9
 """Where parameters begin in a status packet."""
 
@@ -65,6 +62,8 @@ class GroupAnswer:
         printed = rows[:, -2] | rows[:, -1].astype(np.uint16) << 8
         if (rows[:, :8] != self._beginnings).any() or (crc16_of_rows(rows[:, :-2]) != printed).any():
             return False
+        if (rows[:, _PAYLOAD - 1] & (0xFF ^ ALERT)).any():
+            return False
         self.error[:] = rows[:, _PAYLOAD - 1]
         self.data[:] = rows[:, _PAYLOAD:-2]
         self.valid[:] = True
@@ -76,39 +75,14 @@ class GroupAnswer:
         seen: set[int] = set()
         for frame in frames:
             status = status_of(frame) if frame.instruction == Instruction.STATUS else None
-            fits = status is not None and status.id in self._rank and len(status.parameters) == self.length
-            if status is not None and fits and not self._slipped(frame):
+            if status is not None and self._fits(status):
                 self._keep(status, again=status.id in seen)
                 seen.add(status.id)
         self.rejected += reader.rejected
 
-    def _slipped(self, frame: Frame) -> bool:
-        """Whether bytes were lost or added inside this answer: one in 65 536 of such has a CRC that fits by chance.
-
-        The header of the answer that follows tells, even when that one is damaged itself.
-        """
-        end = frame.end
-        # Cut short, it goes on with the next answer; stuffing keeps headers out of a sound one.
-        if HEADER in self._bytes[end - len(frame.content) : end]:
-            return True
-        following = self._bytes.find(HEADER, end)
-        gap = self._bytes[end : following if following >= 0 else None]
-        answer = STATUS_OVERHEAD + self.length
-        too_many, too_few = len(gap) % answer, -len(gap) % answer
-        if 0 < too_few <= LONGEST_SLIP:
-            # Lost here, and taken from the next one's header; or lost there.
-            return self._bytes[end - too_few : end] == HEADER[:too_few]
-        if 0 < too_many <= LONGEST_SLIP and not HEADER.startswith(gap):
-            # Added here, and the end of this one is left over; or added there, behind the first byte of a header.
-            start = end - len(frame.content) - ENVELOPE
-            begun = len(gap) > answer and gap[0] == HEADER[0]
-            return not begun and self._likeness(start, end + too_many) > self._likeness(start, end)
-        return False
-
-    def _likeness(self, start: int, other: int) -> int:
-        """How many of an answer's first bytes, at `start`, are the same at another place."""
-        size = self._beginnings.shape[1]
-        return sum(map(eq, self._bytes[start : start + size], self._bytes[other : other + size]))
+    def _fits(self, status: Status) -> bool:
+        """Whether it is what was asked for; a servo that finds a fault in the question has no data to send."""
+        return status.id in self._rank and len(status.parameters) == self.length and not status.error & ~ALERT
 
     def _keep(self, status: Status, *, again: bool) -> None:
         rank = self._rank[status.id]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import IntEnum
 
 from robot_agent.hardware.servos.checksum import crc16
@@ -59,8 +59,6 @@ class Frame:
 
     id: int
     content: bytes
-    end: int = field(default=0, compare=False)
-    """Place behind it among the bytes that the reader was fed."""
 
     @property
     def instruction(self) -> int:

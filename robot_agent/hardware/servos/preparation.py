@@ -59,6 +59,8 @@ class Preparation:
         found = self.look()
         self._check(found)
         self._settle_eeprom(found)
+        if found(r.STATUS_RETURN_LEVEL) != r.ANSWERS_ALL:
+            self.write(r.STATUS_RETURN_LEVEL, r.ANSWERS_ALL)
         if found(r.BUS_WATCHDOG):
             # A tripped watchdog holds the goals fast; the servo stays where it stopped.
             self.write(r.BUS_WATCHDOG, 0)
@@ -78,9 +80,7 @@ class Preparation:
     def write(self, register: Register, value: int) -> None:
         send = {1: _sdk.write1ByteTxRx, 2: _sdk.write2ByteTxRx, 4: _sdk.write4ByteTxRx}[register.size]
         raw = value & (1 << 8 * register.size) - 1
-        _, error = self._tried(lambda: (0, *send(self._port, self._place.id, register.address, raw)))
-        if error & ~ALERT:
-            raise self._trouble(f"refuses {value} at address {register.address} (error {error & ~ALERT})")
+        self._obeyed(lambda: send(self._port, self._place.id, register.address, raw), value, register.address)
 
     def look(self) -> Callable[[Register], int]:
         """Value by register, all of them read at once; nothing is written."""
@@ -129,7 +129,16 @@ class Preparation:
         servo, port = self._place.id, self._port
         found, _ = self._tried(lambda: _sdk.readTxRx(port, servo, r.INDIRECT_ADDRESSES, len(places)))
         if list(found) != places:
-            self._tried(lambda: (0, *_sdk.writeTxRx(port, servo, r.INDIRECT_ADDRESSES, len(places), places)))
+            self._obeyed(
+                lambda: _sdk.writeTxRx(port, servo, r.INDIRECT_ADDRESSES, len(places), places),
+                "the places of its answer",
+                r.INDIRECT_ADDRESSES,
+            )
+
+    def _obeyed(self, tell: Callable[[], tuple[int, int]], value: object, address: int) -> None:
+        _, error = self._tried(lambda: (0, *tell()))
+        if error & ~ALERT:
+            raise self._trouble(f"refuses {value} at address {address} (error {error & ~ALERT})")
 
     def _tried(self, ask: Callable[[], tuple[Any, int, int]]) -> tuple[Any, int]:
         """Value and error byte of a question, asked again when no sound answer came."""

@@ -15,6 +15,8 @@ VOLTAGE_UNIT = 0.1  # V
 WATCHDOG_UNIT = 0.020  # s
 RETURN_DELAY_UNIT = 2e-6  # s
 WATCHDOG_TRIPPED = -1
+ANSWERS_ALL = 2
+"""Status return level with which a servo answers every instruction; any power-up makes it so."""
 RAM_BEGINS = 64
 """Registers below keep their values without power and can not be written while torque is on."""
 FACTORY_RETURN_DELAY = 250
@@ -82,7 +84,7 @@ MIN_POSITION = Register(52, 4, True, 0, 4095, 0)
 SHUTDOWN = Register(63, 1, True, 0, 255, 52)
 TORQUE_ENABLE = Register(64, 1, True, 0, 1)
 LED = Register(65, 1, True, 0, 1)
-STATUS_RETURN_LEVEL = Register(68, 1, True, 0, 2, 2)
+STATUS_RETURN_LEVEL = Register(68, 1, True, 0, 2, ANSWERS_ALL)
 REGISTERED = Register(69, 1)
 HARDWARE_ERROR = Register(70, 1)
 VELOCITY_I_GAIN = Register(76, 2, True, 0, 16383, 1920)
@@ -112,7 +114,7 @@ PRESENT_VOLTAGE = Register(144, 2)
 PRESENT_TEMPERATURE = Register(146, 1)
 
 INDIRECT_ADDRESSES = 168
-"""Address of the first of 28 registers (2 bytes each) that say what the bytes at INDIRECT_DATA show."""
+"""Address of the first of 28 registers (2 bytes each) that say which byte of RAM those at INDIRECT_DATA show."""
 INDIRECT_DATA = 224
 INDIRECT_COUNT = 28
 """Of each of the two banks."""
