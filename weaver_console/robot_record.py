@@ -124,7 +124,7 @@ class RobotRecord:
         Heartbeats are sent by the robot's clock: how many there were is told by their stamps, however slow it runs.
         """
         sent = (self.beat_stamp_ns - self.counted_stamp_ns) * 1e-9 * topics.HEARTBEAT.rate
-        known = self.counted_stamp_ns > 0 and sent >= 1.0
+        known = self.counted_stamp_ns > 0 and sent >= 1.0 and not self.replays  # which winds and pauses its clock
         self.loss = max(0.0, 1.0 - self.counts.get("hb", 0) / sent) if known else None
         self.counted_stamp_ns = self.beat_stamp_ns
         self.rates = {key: count / elapsed for key, count in self.counts.items()}

@@ -14,7 +14,6 @@ from typing import Any
 
 import pytest
 from full_robot import FullRobot
-from PIL import Image
 from visitors import CHROMIUM, DESK, ROBOT_ID, WITHOUT_WEBGL, Visitor
 
 from weaver_console import built_page
@@ -128,16 +127,13 @@ def visit(chromium: Callable[..., Any], stage: Stage) -> Iterator[Callable[..., 
 
 @pytest.fixture
 def picture(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., None]:
-    """Keeps what the page, or a part of it, looks like under a name; in the guide's folder with 256 colours."""
+    """Keeps what the page, or a part of it, looks like under a name."""
     named = os.environ.get(PICTURES)
     folder = Path(named) if named else tmp_path_factory.getbasetemp() / "pictures"
     folder.mkdir(parents=True, exist_ok=True)
 
     def keep(visitor: Visitor, name: str, part: Any = None) -> None:
-        path = folder / f"{name}.png"
-        (visitor.page if part is None else part).screenshot(path=path, timeout=60_000, animations="disabled")
-        if named:
-            with Image.open(path) as taken:
-                taken.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
+        taken = visitor.page if part is None else part
+        taken.screenshot(path=folder / f"{name}.png", timeout=60_000, animations="disabled")
 
     return keep

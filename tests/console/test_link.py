@@ -150,3 +150,14 @@ def test_the_list_changes_only_with_what_matters(field: Field):
     field.forward(robot, 0.2)
     roster.refresh()
     assert roster.version == 2
+
+
+def test_the_end_of_a_replay_is_no_loss(field: Field):
+    replay = field.robot("replay-a", kind="REPLAY")
+    field.forward(replay, 2.5)
+    field.bus.announce("replay-a", "replay")
+    assert field.link.robot("replay-a").loss is None  # its clock is wound and paused
+    field.clock.forward(seconds=1.5)
+    field.link.check()
+    assert _texts(field)[-1] == "the replay has ended"
+    assert not [text for text in _texts(field) if "is lost" in text or "process replay" in text]

@@ -26,10 +26,10 @@ from weaver_console.scene.contours import INTERVAL, contours
 from weaver_console.scene.contours import LIFT as CONTOUR_LIFT
 from weaver_console.scene.layers import TRANSPORT
 from weaver_console.scene.mission_figure import LIFT, TOP
-from weaver_console.scene.page_scene import PageScene
+from weaver_console.scene.page_scene import THRIFTY_PERIOD, THRIFTY_TILES, PageScene
 from weaver_console.scene.posture import Postures, closed_hull, segments, turn_z_to
 from weaver_console.scene.shapes import octasphere, prism
-from weaver_console.scene.terrain_figure import SEAM_PERIOD, TILES_AN_UPDATE, MeshStore
+from weaver_console.scene.terrain_figure import READING_PICTURES, SEAM_PERIOD, TILES_AN_UPDATE, MeshStore
 from weaver_console.scene_page import scene_page
 from weaver_shared import topics
 from weaver_shared.messages import CameraPicture, PowerState, TruthState, Waypoint
@@ -50,6 +50,11 @@ class View:
 
     def names(self, beginning: str) -> set[str]:
         return {name for name in self.scene._server.scene._handle_from_node_name if name.startswith(beginning)}
+
+    def tiles(self) -> dict[tuple[int, int], bytes]:
+        """The newest mesh of each tile; an older one may be in sight until it has been read."""
+        nodes = [tuple(map(int, name.rpartition("/")[2].split("_"))) for name in self.names("/world/terrain/")]
+        return {(i, j): self.node(f"/world/terrain/{i}_{j}_{number}").glb_data for i, j, number in sorted(nodes)}
 
 
 @pytest.fixture
@@ -147,27 +152,71 @@ def test_a_forbidden_area_has_a_fence_on_the_ground_until_it_is_gone(field: Fiel
 def test_a_whole_map_is_drawn_in_parts_and_then_left_alone(field: Field, view: View):
     record = _mapped(field, 3)
     view.scene.update(record)
-    assert len(view.names("/world/terrain/")) == TILES_AN_UPDATE
+    assert len(view.tiles()) == TILES_AN_UPDATE
     view.scene.update(record)
     view.scene.update(record)
-    assert len(view.names("/world/terrain/")) == 36
-    mesh = view.node("/world/terrain/0_0").glb_data
+    assert len(view.tiles()) == 36
+    mesh = view.tiles()[0, 0]
     view.scene.update(record)
-    assert view.node("/world/terrain/0_0").glb_data is mesh
+    assert view.tiles()[0, 0] is mesh
+
+
+def test_new_ground_is_drawn_before_the_rest_is_recoloured_and_nothing_waits_for_ever(field: Field, view: View):
+    record = _mapped(field, 3)
+    for _ in range(3):
+        view.scene.update(record)
+    before = view.tiles()
+    tile = record.ground.tiles[0, 0]
+    record.ground.put(dataclasses.replace(tile, i=3, j=0))
+    view.scene.wish(layer="roughness")
+    view.scene.thrifty = True
+    for _ in range(THRIFTY_PERIOD):
+        view.scene.update(record)
+    drawn = {index for index, mesh in view.tiles().items() if mesh != before.get(index)}
+    assert (3, 0) in drawn
+    assert THRIFTY_TILES <= len(drawn) < 36
+    for number in range(36 // THRIFTY_TILES * THRIFTY_PERIOD):  # while nine tiles change all the time
+        for i in range(3):
+            for j in range(3):
+                noise = np.int16(number + 1)
+                changed = record.ground.tiles[i, j]
+                record.ground.put(dataclasses.replace(changed, elevation_mm=changed.elevation_mm + noise))
+        view.scene.update(record)
+    assert not [index for index, mesh in view.tiles().items() if before.get(index) == mesh]
 
 
 def test_a_changed_tile_is_drawn_at_once_and_its_seams_soon_after(field: Field, view: View):
     record = _mapped(field, 1)
     view.scene.update(record)
-    before = {name: view.node(name).glb_data for name in view.names("/world/terrain/")}
+    before = view.tiles()
     tile = record.ground.tiles[0, 0]
     record.ground.put(dataclasses.replace(tile, elevation_mm=tile.elevation_mm[::-1]))
     view.scene.update(record)
-    assert {name for name, mesh in before.items() if view.node(name).glb_data != mesh} == {"/world/terrain/0_0"}
+    assert {index for index, mesh in view.tiles().items() if before[index] != mesh} == {(0, 0)}
     for _ in range(SEAM_PERIOD):
         view.scene.update(record)
-    redrawn = {name for name, mesh in before.items() if view.node(name).glb_data != mesh}
-    assert redrawn == {f"/world/terrain/{i}_{j}" for i in (-1, 0) for j in (-1, 0)}
+    redrawn = {index for index, mesh in view.tiles().items() if before[index] != mesh}
+    assert redrawn == {(i, j) for i in (-1, 0) for j in (-1, 0)}
+
+
+def test_a_tile_stays_in_sight_until_its_successor_has_been_read(field: Field, view: View):
+    record = _mapped(field, 1)
+    view.scene.update(record)
+    for _ in range(READING_PICTURES):
+        view.scene.update(record)
+    first = view.names("/world/terrain/0_0_")
+    age = dict.fromkeys(first, READING_PICTURES)
+    tile = record.ground.tiles[0, 0]
+    for number in range(1, 4 * READING_PICTURES):  # it changes with every picture
+        record.ground.put(dataclasses.replace(tile, elevation_mm=tile.elevation_mm + np.int16(number)))
+        view.scene.update(record)
+        age = {name: age.get(name, -1) + 1 for name in view.names("/world/terrain/0_0_")}
+        assert max(age.values()) >= READING_PICTURES, "nothing is seen of it"
+        assert len(age) <= 2
+    assert not first & age.keys()
+    for _ in range(2 * READING_PICTURES):
+        view.scene.update(record)
+    assert len(view.names("/world/terrain/0_0_")) == 1
 
 
 def test_how_a_robot_stands_is_worked_out_once_for_all_pages(field: Field):
@@ -180,10 +229,10 @@ def test_how_a_robot_stands_is_worked_out_once_for_all_pages(field: Field):
 def test_another_layer_recolours_every_tile_and_tells_its_legend(field: Field, view: View):
     record = _mapped(field, 1)
     view.scene.update(record)
-    before = view.node("/world/terrain/0_0").glb_data
+    before = view.tiles()[0, 0]
     view.scene.wish(layer="roughness")
     view.scene.update(record)
-    assert view.node("/world/terrain/0_0").glb_data != before
+    assert view.tiles()[0, 0] != before
     assert view.legends[-1].layer == "roughness"
 
 

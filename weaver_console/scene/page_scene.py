@@ -29,7 +29,7 @@ from weaver_console.scene.mission_figure import TOP, Course, MissionFigure
 from weaver_console.scene.motion_figure import MotionFigure
 from weaver_console.scene.posture import Posture, Postures
 from weaver_console.scene.robot_figure import RobotFigure
-from weaver_console.scene.terrain_figure import MeshStore, TerrainFigure
+from weaver_console.scene.terrain_figure import READING_PICTURES, TILES_AN_UPDATE, MeshStore, TerrainFigure
 from weaver_shared.bus import free_port
 from weaver_shared.config.navigation import PathFollowerConfig
 from weaver_shared.messages import CameraPicture, OdometryEstimate, PowerState, RobotState, TruthState, Waypoint
@@ -43,8 +43,9 @@ Array = NDArray[np.float64]
 LINES_PERIOD_NS = 120_000_000
 """Polygon, forces and look-ahead are drawn 8 times a second: in the browser lines cost more than all the rest."""
 
-THRIFTY_TERRAIN = 9
-"""Updates between new ground where the browser draws without a graphics card: each tile costs it a new shader."""
+THRIFTY_PERIOD, THRIFTY_TILES, THRIFTY_READING = 3, 4, 15
+"""Updates between new ground, tiles of it, and updates until it has been read, in a browser without a graphics card:
+each tile costs it dear."""
 
 FOLLOWER = PathFollowerConfig()
 CAMERA_FROM_ROBOT = np.array([-1.25, -0.85, 0.75])
@@ -162,8 +163,10 @@ class PageScene:
         self._ground = record.ground
         self._updates += 1
         hurried = wishes.layer != shown.terrain.legend.layer or (shown.terrain.unfinished and not self.thrifty)
-        due = self._updates % THRIFTY_TERRAIN == 0 if self.thrifty else ground_due
-        if (hurried or due) and shown.terrain.update(record.ground, wishes.layer):
+        due = self._updates % THRIFTY_PERIOD == 0 if self.thrifty else ground_due
+        most, patience = (THRIFTY_TILES, THRIFTY_READING) if self.thrifty else (TILES_AN_UPDATE, READING_PICTURES)
+        shown.terrain.settle()
+        if (hurried or due) and shown.terrain.update(record.ground, wishes.layer, most=most, patience=patience):
             self._on_legend(shown.terrain.legend)
         self._update_robot(shown, record, wishes)
         state = record.newest("tele/state", RobotState)
