@@ -337,7 +337,7 @@ class CommandDesk:
                     names.add(CommandName.RELEASE_STOP)
             elif mode in ("OFF", "READY", "SIT") and not self._situation.stand_blockers:
                 names.add(CommandName.STAND)
-            if mode in ("STAND", "WALK", "HOLD"):
+            if mode in ("STAND", "WALK", "HOLD", "FAULT"):  # which ends only when the order to stand is withdrawn
                 names.add(CommandName.SIT)
             if self._situation.lift_margins:
                 names.add(CommandName.LIFT_LEG)

@@ -58,3 +58,9 @@ class ModeMachine:
 
     def _permission(self, mode: str, *, stand: bool = False, walk: bool = False, settled: bool = False) -> Permission:
         return Permission(mode=mode, torque_on=self._torque_on, stand=stand, walk=walk, settled=settled)
+
+
+def way_out(permission: Permission, verdict: Verdict) -> tuple[str, ...]:
+    """What an operator has left to do when the torque was cut and nothing is wrong any more."""
+    ended = permission.mode == "FAULT" and verdict.action is not SafetyAction.CUT
+    return ("what cut the torque is over: Sit takes the order to stand back, then Stand",) if ended else ()

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from robot_agent.commands import CommandDesk
+from robot_agent.modes import way_out
 from robot_agent.pipeline import WalkTick
 from robot_agent.walking_pace import WalkingPace, expected_speed
 from weaver_shared import topics
@@ -265,11 +266,12 @@ def _locomotion_state(tick: WalkTick) -> LocomotionState:
 
 def _mode_state(tick: WalkTick, desk: CommandDesk) -> ModeState:
     orders = desk.orders()
+    waits = _waiting(tick) + way_out(tick.permission, tick.verdict)
     return ModeState(
         stamp_ns=tick.stamp_ns,
         mode=tick.permission.mode,
         action=tick.verdict.action,
-        reasons=tick.verdict.reasons + tick.verdict.warnings + tuple(tick.walk.reasons) + _waiting(tick),
+        reasons=tick.verdict.reasons + tick.verdict.warnings + tuple(tick.walk.reasons) + waits,
         stopped=bool(orders.stop_level),
         stop_level=orders.stop_level,
         allowed=desk.allowed(),

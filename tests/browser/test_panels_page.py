@@ -136,6 +136,12 @@ def test_joints_alerts_and_pictures_are_there(
 ) -> None:
     anna = visit()
     assert anna.page.get_by_role("list", name="Alerts").count() == 0
+    anna.page.get_by_text("States", exact=True).click()
+    states = anna.page.get_by_role("table", name="States").locator("tbody tr")
+    assert states.count() == 8
+    assert re.search(r"SIT\s*sitting down\s*Stand", states.and_(anna.page.locator("[aria-current]")).inner_text())
+    anna.page.locator(".health .reading", has_text="Energy used").filter(has_text=re.compile("[0-9]kJ")).wait_for()
+    anna.page.get_by_text("States", exact=True).click()
     anna.page.get_by_text("Joints", exact=True).click()
     rows = anna.page.get_by_role("table", name="Joints").locator("tbody tr")
     rows.first.wait_for()

@@ -306,6 +306,10 @@ def test_the_allowed_commands_are_the_ones_that_get_accepted(desk: CommandDesk, 
     observe(desk, "STAND")
     assert {"sit"} <= set(desk.allowed())
     assert "start_mission" not in desk.allowed()
+    observe(desk, "FAULT")
+    assert "sit" in desk.allowed()  # the only way out of it
+    assert "stand" not in desk.allowed()
+    observe(desk, "STAND")
     ada.says(CommandName.SET_MISSION, waypoints=(Waypoint(x=2.0, y=0.0),))
     assert "start_mission" in desk.allowed()
     ada.says(CommandName.START_MISSION)

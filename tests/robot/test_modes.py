@@ -4,7 +4,7 @@ import dataclasses
 
 import pytest
 
-from robot_agent.modes import ModeMachine, Permission
+from robot_agent.modes import ModeMachine, Permission, way_out
 from robot_agent.orders import idle_orders
 from robot_agent.safety import Verdict
 from weaver_shared.messages import SafetyAction
@@ -78,6 +78,9 @@ def test_after_a_fall_the_old_order_to_stand_is_void() -> None:
     step(machine, "standing", SafetyAction.CUT)
     assert step(machine, "sitting").mode == "FAULT"
     assert not step(machine, "sitting").torque_on
+    assert way_out(step(machine, "sitting"), verdict(SafetyAction.CUT)) == ()
+    assert "Sit takes the order to stand back" in way_out(step(machine, "sitting"), verdict())[0]
     step(machine, "sitting", stand=False)
+    assert way_out(step(machine, "sitting", stand=False), verdict()) == ()
     assert step(machine, "sitting", stand=False).mode == "OFF"
     assert step(machine, "sitting").torque_on

@@ -13,6 +13,7 @@ import { ConfirmStandDialog } from "./ConfirmStandDialog";
 import { GaitDiagram } from "./GaitDiagram";
 import { JointTable } from "./JointTable";
 import { StabilityBar } from "./StabilityBar";
+import { StateTable } from "./StateTable";
 
 const STATE = "tele/state";
 
@@ -46,6 +47,7 @@ export function RobotPanel() {
         <Reading label="Speed" source={STATE} value={fixed(speed, 2)} unit="m/s" />
         <Reading label="Turn rate" source={STATE} value={degrees(state?.velocity_in_body[2], 0)} unit="°/s" />
       </div>
+      <StateTable />
       <JointTable />
       <ConfirmStandDialog
         opened={confirming}

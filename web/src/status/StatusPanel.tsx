@@ -74,6 +74,7 @@ function PowerDetails() {
     <div className="readings">
       <Reading label="Supply current" source={POWER} value={fixed(current, 1)} unit="A" />
       <Reading label="Motor power" source={POWER} value={fixed(power?.motor_power, 0)} unit="W" />
+      <Reading label="Energy used" source={POWER} value={fixed((power?.energy ?? NaN) / 1000, 1)} unit="kJ" />
       <Reading label="Cost of transport" source={POWER} value={fixed(power?.cost_of_transport, 2)} />
     </div>
   );

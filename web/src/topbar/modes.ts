@@ -10,7 +10,7 @@ const WORDS: Record<Mode, readonly [words: string, tone: Tone]> = {
   WALK: ["walking", "active"],
   SIT: ["sitting down", "quiet"],
   HOLD: ["holding still", "caution"],
-  FAULT: ["fault", "danger"],
+  FAULT: ["fallen, or not safe to move", "danger"],
   ESTOP: ["stopped", "danger"],
 };
 
