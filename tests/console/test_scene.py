@@ -24,6 +24,7 @@ from weaver_console.png import png
 from weaver_console.scene.area_figure import RAILS
 from weaver_console.scene.contours import INTERVAL, contours
 from weaver_console.scene.contours import LIFT as CONTOUR_LIFT
+from weaver_console.scene.ground import UNKNOWN_MM
 from weaver_console.scene.layers import TRANSPORT
 from weaver_console.scene.mission_figure import LIFT, TOP
 from weaver_console.scene.page_scene import THRIFTY_PERIOD, THRIFTY_TILES, PageScene
@@ -168,6 +169,8 @@ def test_new_ground_is_drawn_before_the_rest_is_recoloured_and_nothing_waits_for
     before = view.tiles()
     tile = record.ground.tiles[0, 0]
     record.ground.put(dataclasses.replace(tile, i=3, j=0))
+    for i, j in list(before):  # all the rest has changed since
+        record.ground.put(record.ground.tiles[i, j])
     view.scene.wish(layer="roughness")
     view.scene.thrifty = True
     for _ in range(THRIFTY_PERIOD):
@@ -183,6 +186,17 @@ def test_new_ground_is_drawn_before_the_rest_is_recoloured_and_nothing_waits_for
                 record.ground.put(dataclasses.replace(changed, elevation_mm=changed.elevation_mm + noise))
         view.scene.update(record)
     assert not [index for index, mesh in view.tiles().items() if before.get(index) == mesh]
+
+
+def test_unknown_tiles_hold_up_nobody(field: Field, view: View):
+    record = _mapped(field, 1)
+    tile = record.ground.tiles[0, 0]
+    unknown = np.full_like(tile.elevation_mm, UNKNOWN_MM)
+    for i in range(2, 8):
+        for j in range(8):
+            record.ground.put(dataclasses.replace(tile, i=i, j=j, elevation_mm=unknown))
+    view.scene.update(record)
+    assert set(view.tiles()) == {(i, j) for i in (-1, 0) for j in (-1, 0)}
 
 
 def test_a_changed_tile_is_drawn_at_once_and_its_seams_soon_after(field: Field, view: View):

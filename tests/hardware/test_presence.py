@@ -48,6 +48,15 @@ def test_a_computer_without_any_adapter_is_told_so(config: HardwareConfig, tmp_p
         require_devices(config, tmp_path / "nothing")
 
 
+def test_a_port_that_is_not_ours_to_use_is_told_with_the_group_to_join(
+    config: HardwareConfig, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    closed = tmp_path / "power"
+    monkeypatch.setattr("os.access", lambda path, _mode: Path(path) != closed)
+    with pytest.raises(ResourceError, match=r"^the power monitor: port .* join its group \(dialout on Debian\)[^;]*$"):
+        require_devices(config, tmp_path)
+
+
 @pytest.mark.parametrize("arguments", [["--robot", "hardware"], ["--robot", "sim", "--wiring", "robot.toml"]])
 def test_a_real_robot_needs_its_wiring_and_no_other_takes_one(arguments: list[str]) -> None:
     with pytest.raises(ConfigurationError, match="--wiring FILE"):

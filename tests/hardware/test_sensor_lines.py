@@ -95,6 +95,28 @@ def test_an_imu_is_heard_at_once_by_a_thread_of_its_own(tmp_path: Path) -> None:
     assert ImuBatch.join(taken).stamp_ns.tolist() == (HOST_NS + sent.stamp_ns).tolist()
 
 
+def test_what_came_while_the_control_loop_was_away_is_all_there() -> None:
+    class Source:
+        """Has a batch of two for each of the first five questions."""
+
+        asked = 0
+
+        def take(self, now_ns: int) -> ImuBatch:
+            self.asked += 1
+            return shaken(2, 2 * self.asked * STEP_NS) if self.asked <= 5 else ImuBatch.join([])
+
+        def close(self) -> None: ...
+
+    class Line:
+        def wait(self, seconds: float) -> None: ...
+
+    source = Source()
+    with closing(PunctualImu(source, Line(), lambda: 0)) as imu:  # type: ignore[arg-type]
+        soon(lambda: source.asked > 5)
+        assert imu.take(0).stamp_ns.tolist() == [STEP_NS * number for number in range(3, 13)]
+        assert imu.take(0).stamp_ns.size == 0
+
+
 def joined_into(taken: list[ImuBatch], imu: PunctualImu) -> np.ndarray:
     taken.append(imu.take(0))
     return ImuBatch.join(taken).stamp_ns

@@ -7,13 +7,14 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import pytest
 import zenoh
 
 from weaver_shared import topics
 from weaver_shared.bus import Bus, MemoryBus, ZenohBus, free_port
 from weaver_shared.errors import ConfigurationError, ResourceError
-from weaver_shared.messages import Answer, Command, CommandName, Event, Heartbeat, LeaseState, Severity
+from weaver_shared.messages import Answer, Command, CommandName, Event, Heartbeat, LeaseState, RobotState, Severity
 
 PATIENCE = 10.0  # s, never spent when all is well
 
@@ -235,6 +236,43 @@ def test_publishing_after_closing_is_harmless() -> None:
     bus.publish("w1", topics.HEARTBEAT, beat(1))
 
 
+def state_at(stamp_ns: int) -> RobotState:
+    three, legs, joints = np.zeros(3), np.zeros(6), np.zeros(30)
+    return RobotState(
+        stamp_ns=stamp_ns, position_in_world=three, wxyz=np.array([1.0, 0.0, 0.0, 0.0]), velocity_command=three,
+        velocity_in_body=three, joint_position=joints, joint_torque=joints, foot_in_body=np.zeros((6, 3)),
+        foot_contact=legs > 0.0, foot_force=legs, stability_margin=0.0, roll=0.0, pitch=0.0,
+    )  # fmt: skip
+
+
+def test_states_are_waited_for_one_by_one_until_the_bus_is_closed() -> None:
+    """What comes 50 times a second has a thread of its own, which ends with the bus and not before."""
+    endpoint = f"tcp/127.0.0.1:{free_port()}"
+    console, robot = ZenohBus(listen=[endpoint], newest_only=True), ZenohBus(connect=[endpoint])
+    heard: list[int] = []
+    news = threading.Event()
+
+    def hear(_robot: str, _key: str, state: RobotState) -> None:
+        heard.append(state.stamp_ns)
+        news.set()
+
+    console.subscribe("*", topics.STATE, hear)
+    waiting = [thread for thread in threading.enumerate() if thread.name == "bus weaver/*/tele/state"]
+    try:
+        for stamp_ns in range(1, 200):
+            news.clear()
+            robot.publish("w1", topics.STATE, state_at(stamp_ns))
+            if news.wait(0.1) and len(heard) > 20:
+                break
+    finally:
+        robot.close()
+        console.close()
+    assert len(heard) > 20
+    assert heard == sorted(set(heard))
+    assert len(waiting) == 1
+    assert not waiting[0].is_alive()
+
+
 def test_who_wants_only_the_newest_gets_it_and_every_event() -> None:
     endpoint = f"tcp/127.0.0.1:{free_port()}"
     console, robot = ZenohBus(listen=[endpoint], newest_only=True), ZenohBus(connect=[endpoint])
@@ -282,4 +320,5 @@ def test_who_wants_only_the_newest_gets_it_and_every_event() -> None:
     assert beats[-1] == 1099
     assert beats == sorted(set(beats))
     assert first in beats
+    assert len([number for number in beats if number >= 1000]) < 100  # most were overtaken while it was held
     assert [text for text in texts if text != "last"] == [str(number) for number in range(100)]
