@@ -192,7 +192,7 @@ class ZenohBus:
                 who, where = asked["transport/auth/usrpwd/user"], ", ".join(connect)
                 raise ResourceError(f"the router at {where} is not there or does not let {who} in: {error}") from error
             raise ResourceError(f"the bus can not listen on {', '.join(listen)}: {error}") from error
-        self._drain = Drain(self._keeping) if newest_only else None
+        self._drain = Drain(self._keeping, closed=zenoh.ZError) if newest_only else None
         self._publishers: dict[str, zenoh.Publisher] = {}
         self._last: dict[str, bytes] = {}
         self._lock = threading.Lock()

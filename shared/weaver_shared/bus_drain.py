@@ -15,8 +15,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import zenoh
-
 PERIOD = 0.002
 """s between two looks at what should be heard soon, and the least between two takings of what is waited for."""
 
@@ -49,9 +47,11 @@ class _Subscriber:
 class Drain:
     """`declare` from any thread; `deliver` is called with full key and payload, in one of the drain's threads."""
 
-    def __init__(self, declare: Callable[[str, int], Any]) -> None:
-        """`declare` makes a Zenoh subscriber of a key pattern that keeps so many messages."""
+    def __init__(self, declare: Callable[[str, int], Any], closed: type[Exception]) -> None:
+        """`declare` makes a Zenoh subscriber of a key pattern that keeps so many messages; once the session has ended,
+        waiting at it raises `closed`."""
         self._declare = declare
+        self._closed = closed
         self._subscribers: tuple[_Subscriber, ...] = ()
         self._ended = threading.Event()
         self._threads = [threading.Thread(target=self._look, name="bus", daemon=True)]
@@ -93,7 +93,7 @@ class Drain:
                         self._take(subscriber, sample)
 
     def _await(self, subscriber: _Subscriber) -> None:
-        with contextlib.suppress(zenoh.ZError):  # the channel is closed
+        with contextlib.suppress(self._closed):
             while not self._ended.is_set():
                 self._take(subscriber, subscriber.channel.recv())
                 time.sleep(PERIOD)  # so that a whole fleet comes in batches
