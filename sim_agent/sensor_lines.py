@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from robot_agent.hardware.imu import gx3, mip
-from robot_agent.hardware.imu.record import STANDARD_GRAVITY
+from robot_agent.hardware.imu.record import HIGHEST_FORCE, HIGHEST_RATE, STANDARD_GRAVITY
 from robot_agent.hardware.imu.stream import Z_DOWN
 from robot_agent.hardware.power_monitor import (
     CLOSE_RELAY,
@@ -63,7 +63,10 @@ class DirectLine:
 
 
 def _records(record: Callable[[int, np.ndarray, np.ndarray], bytes], batch: ImuBatch) -> list[bytes]:
-    samples = zip(batch.stamp_ns, batch.specific_force_in_imu, batch.angular_velocity_in_imu, strict=True)
+    """Of what is beyond its range a sensor tells the end of the range."""
+    forces = np.clip(batch.specific_force_in_imu, -HIGHEST_FORCE, HIGHEST_FORCE)
+    rates = np.clip(batch.angular_velocity_in_imu, -HIGHEST_RATE, HIGHEST_RATE)
+    samples = zip(batch.stamp_ns, forces, rates, strict=True)
     return [record(int(stamp_ns), force, rate) for stamp_ns, force, rate in samples]
 
 

@@ -6,6 +6,7 @@ import struct
 import time
 from collections.abc import Callable
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +19,11 @@ from robot_agent.hardware.imu.punctual import PunctualImu
 from robot_agent.hardware.imu.stream import MicroStrainImu, gx3_imu, gx5_imu
 from robot_agent.hardware.power_monitor import LINE_LENGTH, PowerMonitor, PowerParser, PowerRecord, encode
 from robot_agent.hardware.serial_line import SerialLine
+from robot_agent.odometry.imu_stream import ImuStream
 from sim_agent.sensor_lines import DirectLine, EmulatedGx3, EmulatedGx5, EmulatedPowerMonitor
 from sim_agent.twin.device_terminal import DeviceTerminal
 from weaver_shared.clock import SimulatedClock
+from weaver_shared.config.odometry import FailureConfig
 from weaver_shared.messages import ImuBatch
 
 Make = Callable[..., Twin]
@@ -60,6 +63,28 @@ def test_samples_come_through_with_their_stamps_on_our_clock(kind: str) -> None:
     assert batch.angular_velocity_in_imu == pytest.approx(sent.angular_velocity_in_imu, abs=1e-6)
     assert np.abs(np.diff(batch.stamp_ns[50:]) - STEP_NS).max() < 20_000
     assert batch.stamp_ns[-1] - HOST_NS - sent.stamp_ns[-1] == pytest.approx(1e6, abs=1.5e6)
+
+
+@pytest.mark.parametrize("kind", MAKERS)
+@pytest.mark.parametrize("field", ["specific_force_in_imu", "angular_velocity_in_imu"])
+def test_a_blow_beyond_the_sensors_range_is_not_lost_and_the_odometry_knows_it(kind: str, field: str) -> None:
+    """A sample left out would be a gap like any other, and what it hid half a metre per second."""
+    device_type, make = MAKERS[kind]
+    device = device_type()
+    line = DirectLine(device)
+    imu = make(line, 100)
+    imu.take(HOST_NS)
+    calm = shaken(20)
+    struck = getattr(calm, field).copy()
+    struck[12] = [-3.0, 0.0, 150.0]
+    for beyond, sent in ((False, calm), (True, replace(shaken(20, 20 * STEP_NS), **{field: struck}))):
+        for record in device.records(sent):
+            line.put(record)
+        batch = imu.take(HOST_NS + int(sent.stamp_ns[-1]) + 1_000_000)
+        assert batch.stamp_ns.size == 20
+        stream = ImuStream(FailureConfig())
+        stream.add(batch)
+        assert stream.take_until(int(batch.stamp_ns[-1])).beyond_range == beyond
 
 
 @pytest.mark.parametrize(("kind", "length"), [("gx3", gx3.LENGTH), ("gx5", mip.LENGTH)])

@@ -102,8 +102,8 @@ class FailureConfig(_Model):
     clock_jump: Positive = 1.0  # s back, or forth without any sample, after which the clock is another one
     least_matched: Annotated[float, Field(ge=0.0, le=1.0)] = 0.2  # of the features in the other eye, or they disagree
     greatest_speed: Positive = 5.0  # m/s
-    greatest_gyro: Positive = 20.0  # rad/s
-    greatest_accel: Positive = 100.0  # m/s^2
+    greatest_gyro: Positive = 8.7  # rad/s; at the end of its range (500 degrees/s) a sensor tells less than there was
+    greatest_accel: Positive = 78.0  # m/s^2; likewise (8 g of a 3DM-GX5)
 
 
 class OdometryConfig(_Model):
