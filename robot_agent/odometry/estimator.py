@@ -37,7 +37,8 @@ SEEN_STILL = 0.7
 """Share of the flow allowed at rest below which pictures alone say that the body stands."""
 
 BLOW = 1000.0
-"""Times the sensor's noise, where a blow was beyond its range: some 0.2 m/s that nobody has measured."""
+"""Times the sensor's noise, where a blow was beyond its range or a sample is missing: some 0.2 m/s that nobody has
+measured."""
 
 UNFOLLOWED = 3
 """Pictures in a row, hardly a feature of which is followed to the next, after which the pose rests on inertia alone."""
@@ -108,7 +109,7 @@ class StereoInertialOdometry:
         self._seen_motion = SeenMotion(self._config.rest.seen_duration, calibration.left.fx)
         self._pending: list[Array] = []  # inertia since the window's newest frame
         self._pending_trusted = True
-        self._pending_beyond_range = False
+        self._pending_unmeasured = False
         self._pending_way: Way | None = None  # of the feet, likewise
         self._last_seen = np.zeros(0, dtype=np.int64)  # identities in the last picture
         self._unfollowed = 0  # pictures in a row
@@ -268,7 +269,7 @@ class StereoInertialOdometry:
         before = self._world_from_imu
         self._pending.append(inertia.samples)
         self._pending_trusted &= inertia.trusted
-        self._pending_beyond_range |= inertia.beyond_range
+        self._pending_unmeasured |= inertia.unmeasured
         self._predict()
         left_from_imu = self._left_from_imu @ self._window.mounting().inverse()
         left_from_previous = left_from_imu @ self._world_from_imu.inverse() @ before @ left_from_imu.inverse()
@@ -295,7 +296,7 @@ class StereoInertialOdometry:
         assert self._stamp is not None
         window, failure = self._window, self._config.failure
         noise_scale = 1.0 if self._pending_trusted else 30.0
-        if self._pending_beyond_range:
+        if self._pending_unmeasured:
             noise_scale = BLOW
         window.add_frame(
             self._stamp,
@@ -379,7 +380,7 @@ class StereoInertialOdometry:
     def _clear_pending(self) -> None:
         self._pending = []
         self._pending_trusted = True
-        self._pending_beyond_range = False
+        self._pending_unmeasured = False
         self._pending_way = None
 
     # ---- standstill ------------------------------------------------------------------------------------------------

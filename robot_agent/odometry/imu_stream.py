@@ -13,6 +13,13 @@ from weaver_shared.messages import ImuBatch
 Array = NDArray[np.float64]
 
 
+SKIPPED = 1.5
+"""Times the usual step from sample to sample, from which on one between them is missing."""
+
+PERIOD_BLEND = 0.1
+"""Share of each new step in the usual one."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Inertia:
     """What happened between two pictures."""
@@ -22,7 +29,7 @@ class Inertia:
     problem: str  # what is wrong with the samples; empty if nothing
     trusted: bool  # False: so much is missing that the samples are a guess
     gap: float = 0.0  # s, the longest stretch without a sample
-    beyond_range: bool = False  # a blow was harder than the sensor can measure
+    unmeasured: bool = False  # a blow was harder than the sensor can measure, or a sample or a few are missing
 
 
 def usable(batch: ImuBatch, config: FailureConfig) -> NDArray[np.bool_]:
@@ -43,17 +50,20 @@ class ImuStream:
         self._last = np.array([0.0, 0.0, 0.0, np.nan, np.nan, np.nan])
         self._cursor: int | None = None
         self._bad = 0
-        self._beyond_range = False
+        self._unmeasured = False
+        self._period: float | None = None  # s, usual step from sample to sample
 
     def add(self, batch: ImuBatch) -> None:
         """Take samples in; the unusable and the out of order are left out and counted."""
         rows = np.column_stack([batch.angular_velocity_in_imu, batch.specific_force_in_imu])
         good = usable(batch, self._config)
-        self._beyond_range |= bool(np.isfinite(rows[~good]).all(axis=1).any())
+        self._unmeasured |= bool(np.isfinite(rows[~good]).all(axis=1).any())
         newest = self._stamps[-1] if len(self._stamps) else (self._cursor if self._cursor is not None else -(2**62))
         past = np.maximum.accumulate(np.concatenate([[newest], batch.stamp_ns]))[:-1]
         good &= batch.stamp_ns > past
         self._bad += int((~good).sum())
+        if newest >= 0:
+            self._watch_steps(np.diff(np.concatenate([[newest], batch.stamp_ns[good]])) * 1e-9)
         self._rows = np.concatenate([self._rows, rows[good]])
         self._stamps = np.concatenate([self._stamps, batch.stamp_ns[good]])
 
@@ -66,7 +76,7 @@ class ImuStream:
         ends = np.minimum(self._stamps[: first_after + 1], stamp_ns)
         split = first_after < len(self._stamps) and self._stamps[first_after] > stamp_ns
         bad, self._bad = self._bad, 0
-        beyond, self._beyond_range = self._beyond_range, False
+        unmeasured, self._unmeasured = self._unmeasured, False
         keep_from = first_after if split else first_after + 1
         self._rows, self._stamps = self._rows[keep_from:], self._stamps[keep_from:]
         missing = begin is not None and len(ends) == 0
@@ -91,5 +101,15 @@ class ImuStream:
             problem=problem,
             trusted=gap <= self._config.imu_gap and not missing and bool(known.any()),
             gap=gap,
-            beyond_range=beyond,
+            unmeasured=unmeasured,
         )
+
+    def _watch_steps(self, steps: Array) -> None:
+        """What a lost sample has hidden is unknown: a foot that struck then is half a metre per second."""
+        if not steps.size:
+            return
+        usual = float(np.median(steps))
+        if self._period is None:
+            self._period = usual
+        self._unmeasured |= bool(((steps > SKIPPED * self._period) & (steps <= self._config.imu_gap)).any())
+        self._period += PERIOD_BLEND * (min(usual, 2.0 * self._period) - self._period)

@@ -84,7 +84,7 @@ def test_a_blow_beyond_the_sensors_range_is_not_lost_and_the_odometry_knows_it(k
         assert batch.stamp_ns.size == 20
         stream = ImuStream(FailureConfig())
         stream.add(batch)
-        assert stream.take_until(int(batch.stamp_ns[-1])).beyond_range == beyond
+        assert stream.take_until(int(batch.stamp_ns[-1])).unmeasured == beyond
 
 
 @pytest.mark.parametrize(("kind", "length"), [("gx3", gx3.LENGTH), ("gx5", mip.LENGTH)])

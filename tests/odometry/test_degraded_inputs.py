@@ -10,6 +10,7 @@ from walking_motion import FRAME_NS, Walk, inertia
 from robot_agent.evaluation.textured_ground import TexturedGround
 from robot_agent.odometry import StereoInertialOdometry
 from robot_agent.odometry.front_end import FrontEnd
+from robot_agent.odometry.imu_stream import ImuStream
 from robot_agent.vision.camera import StereoCalibration
 from weaver_shared.config.odometry import FailureConfig, FrontEndConfig, OdometryConfig
 from weaver_shared.foot_contacts import FootContacts
@@ -202,6 +203,38 @@ def test_a_blow_beyond_the_sensors_range_is_named_and_survived(
     assert all(e.quality is GOOD for e in estimates[struck + 3 :])
     assert max(_error(e) for e in estimates[struck:]) < 0.03
     assert _error(estimates[-1]) < 0.01
+
+
+def without(batch: ImuBatch, place: int, force: np.ndarray) -> ImuBatch:
+    """A batch with other forces of which one sample was lost on its way."""
+    kept = np.arange(batch.stamp_ns.size) != place
+    return ImuBatch(
+        stamp_ns=batch.stamp_ns[kept],
+        angular_velocity_in_imu=batch.angular_velocity_in_imu[kept],
+        specific_force_in_imu=force[kept],
+    )
+
+
+def test_a_sample_lost_while_a_foot_strikes_is_survived(
+    recording: Recording, run: Callable[..., list[OdometryEstimate]]
+) -> None:
+    struck = 60
+    frame, batch = recording[struck]
+    force = batch.specific_force_in_imu.copy()
+    force[3, 2] += 70.0
+    force[4:6, 2] -= 35.0
+    estimates = run([*recording[:struck], (frame, without(batch, 3, force)), *recording[struck + 1 :]])
+    assert max(_error(e) for e in estimates[struck:]) < 0.03
+    assert _error(estimates[-1]) < 0.01
+
+
+def test_a_lost_sample_is_noticed_among_others_and_only_then(recording: Recording) -> None:
+    for lost in (None, *range(1, 9)):
+        stream = ImuStream(FailureConfig())
+        for index, (frame, batch) in enumerate(recording[:12]):
+            hit = index == 8 and lost is not None
+            stream.add(without(batch, lost, batch.specific_force_in_imu) if hit else batch)
+            assert stream.take_until(frame.stamp_ns).unmeasured == hit, (index, lost)
 
 
 def test_features_are_found_again_after_a_wrong_prediction(
