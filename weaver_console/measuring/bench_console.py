@@ -62,12 +62,27 @@ def main(arguments: list[str]) -> int:
         print(f"bench console: {name}", file=sys.stderr, flush=True)
         figures[name] = measure(case, options.seconds)
     _add_scene_update(figures)
-    real = measure_real_page(options.clicks) if options.browser else {"skipped": "not asked for"}
+    real = _measure_real_pages(options.clicks, options.only) if options.browser else {"skipped": "not asked for"}
     if options.json:
         print(json.dumps({"console": figures, "real_page": real, "goal": TRIAL}))
     else:
         _print(figures, real)
     return 0
+
+
+def _measure_real_pages(clicks: int, only: str) -> dict[str, Any]:
+    """A real browser alone, and beside the pages of others of which one has a narrow way."""
+    figures: dict[str, Any] = {}
+    for pages in (1, 4, 10):
+        name = f"{_pages(pages)}, one in Chromium"
+        if only in name:
+            print(f"bench console: {name}", file=sys.stderr, flush=True)
+            figures[name] = measure_real_page(clicks, pages - 1, narrow_rate=NARROW)
+    return figures
+
+
+def _pages(count: int) -> str:
+    return "1 page" if count == 1 else f"{count} pages"
 
 
 def measure(case: Case, seconds: float) -> dict[str, Any]:
@@ -168,7 +183,8 @@ def _print(figures: dict[str, Any], real: dict[str, Any]) -> None:
                 f"  {_pair(one['state_ms'], ('p50', 'p99'))}  {_pair(one['command_ms'], ('p50', 'p99'))}"
                 f"  {_pair(one['tile_ms'], ('p50', 'p99'))}"
             )
-    print(f"in Chromium: {real}")
+    for name, one in real.items():
+        print(f"{name}: {one}")
 
 
 def _pair(values: dict[str, float | None], names: Iterable[str]) -> str:

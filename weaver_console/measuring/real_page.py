@@ -11,6 +11,7 @@ import tempfile
 import time
 from typing import Any
 
+from weaver_console.measuring.crowd import Crowd
 from weaver_console.measuring.percentiles import percentiles_ms
 from weaver_console.measuring.processes import MeasuredProcess, console_process
 from weaver_shared.bus import free_port
@@ -58,8 +59,8 @@ CanvasRenderingContext2D.prototype.putImageData = function (...given) {
 after the one in which a new tile was painted onto the 2-D map."""
 
 
-def measure_real_page(clicks: int) -> dict[str, Any]:
-    """Figures in ms, or why there are none."""
+def measure_real_page(clicks: int, others: int, *, narrow_rate: float) -> dict[str, Any]:
+    """Figures in ms beside so many other pages, one of them behind `narrow_rate` bytes/s; or why there are none."""
     chromium = shutil.which("chromium")
     if chromium is None:
         return {"skipped": "Chromium is not installed"}
@@ -71,6 +72,7 @@ def measure_real_page(clicks: int) -> dict[str, Any]:
         tempfile.TemporaryDirectory() as data,
         console_process(port, data, "--listen", endpoint) as console,
         MeasuredProcess("weaver_console.measuring.made_robot", *made),
+        Crowd(others, port, ROBOT, narrow_rate=narrow_rate),
     ):
         before, begun = console.cpu_seconds(), time.monotonic()
         measured = _drive(chromium, f"http://127.0.0.1:{port}/", clicks)
