@@ -167,13 +167,12 @@ class CalibrationProcess:
         running.solving = self._worker.submit(_solved, running.session, model, folder, tell)
 
     def _await_solution(self, running: RunningSession, solving: Future[Solved], wait: float) -> None:
-        before = running.step
         if not solving.done():
             self._orders.wait(wait)
         if solving.done():
             running.solved, running.solving = solving.result(), None
             self._calibrations = _calibrations_in(self._folder)
-        if running.solved is not None or running.step != before:
+        if running.solved is not None or running.step != running.told_step:
             self._tell()
 
     def _end(self) -> None:
@@ -183,6 +182,8 @@ class CalibrationProcess:
 
     def _tell(self) -> None:
         state = state_of(self._running, self._calibrations, str(self._folder.absolute()))
+        if self._running is not None:
+            self._running.told_step = state.step
         self._bus.publish(self._robot_id, topics.CALIBRATION, state)
 
 

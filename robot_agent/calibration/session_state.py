@@ -24,6 +24,7 @@ class RunningSession:
     looked_ns: int = FAR_PAST_NS
     shown_ns: int = FAR_PAST_NS
     step: str = ""  # of the solving
+    told_step: str = ""  # the one that was told last
     solving: Future[Solved] | None = None
     solved: Solved | None = None
 

@@ -16,8 +16,23 @@ from weaver_shared.transforms import rotation_log
 
 
 @pytest.fixture(scope="module")
-def estimate(scene: Scene) -> InertialEstimate:
-    return calibrate_imu(scene.truth.rig, scene.views, GRID, scene.inertia, IMU, knots_per_second=30.0)
+def told() -> list[str]:
+    return []
+
+
+@pytest.fixture(scope="module")
+def estimate(scene: Scene, told: list[str]) -> InertialEstimate:
+    tell = told.append
+    return calibrate_imu(scene.truth.rig, scene.views, GRID, scene.inertia, IMU, knots_per_second=30.0, tell=tell)
+
+
+def test_every_step_of_the_long_work_is_told(estimate: InertialEstimate, told: list[str]) -> None:
+    first, second, *steps, last = told
+    assert (first, second, last) == ("places of the pictures", "turn and delay", "how sure it is")
+    assert len(steps) > 1
+    assert [step.partition(" of at most")[0] for step in steps] == [
+        f"all together, step {number}" for number in range(1, len(steps) + 1)
+    ]
 
 
 def test_place_and_delay_come_out_as_they_are(scene: Scene, estimate: InertialEstimate) -> None:
