@@ -14,14 +14,20 @@ from weaver_shared.messages import CommandName
 pytestmark = pytest.mark.browser
 
 
-def test_a_way_through_forbidden_ground_is_refused_until_the_area_is_gone(
-    visit: Callable[..., Any], stage: Any, picture: Callable[..., None]
-) -> None:
+def _with_a_waypoint(visit: Callable[..., Any]) -> tuple[Any, dict[str, float]]:
+    """Somebody in control of a standing robot with a waypoint ahead, and where their map is."""
     anna = visit()
     anna.stand()
     box = map_of(anna).bounding_box()
     anna.page.mouse.click(*within(box, 0.85, 0.5))
     anna.waypoints.first.wait_for()
+    return anna, box
+
+
+def test_a_way_through_forbidden_ground_is_refused_until_the_area_is_gone(
+    visit: Callable[..., Any], stage: Any, picture: Callable[..., None]
+) -> None:
+    anna, box = _with_a_waypoint(visit)
     anna.press("Forbid an area")
     for across, down in ((0.6, 0.4), (0.7, 0.4), (0.7, 0.6)):
         anna.page.mouse.click(*within(box, across, down))
@@ -84,11 +90,7 @@ def test_an_area_drawn_without_control_waits_to_be_sent(visit: Callable[..., Any
 def test_a_mission_is_followed_paused_skipped_and_walked_back(
     visit: Callable[..., Any], stage: Any, picture: Callable[..., None]
 ) -> None:
-    anna = visit()
-    anna.stand()
-    box = map_of(anna).bounding_box()
-    anna.page.mouse.click(*within(box, 0.85, 0.5))
-    anna.waypoints.first.wait_for()
+    anna, _ = _with_a_waypoint(visit)
     stage.robot.speed = 0.02  # it is still under way when the page has shown it, however busy the computer is
     anna.press("Start mission")
     anna.see_state("WALK")

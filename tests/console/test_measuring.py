@@ -8,7 +8,7 @@ import pytest
 from running_console import Console
 from wire_robot import WireRobot
 
-from weaver_console.measuring import bench_links
+from weaver_console.measuring import bench_console, bench_links
 from weaver_console.measuring.made_robot import MadeRobot
 from weaver_console.measuring.narrow_way import NarrowWay
 from weaver_console.measuring.page_client import PageClient
@@ -81,3 +81,8 @@ def test_percentiles_of_nothing_are_none_rather_than_zero() -> None:
 def test_lost_links_that_are_not_known_are_refused(arguments: list[str], complaint: str) -> None:
     with pytest.raises(InputError, match=complaint):
         bench_links.main(arguments)
+
+
+def test_a_case_of_the_console_that_is_not_known_is_refused() -> None:
+    with pytest.raises(InputError, match=r"no case is called like 'moon'; there are 1 page, .* one in Chromium"):
+        bench_console.main(["--only", "moon"])

@@ -22,7 +22,7 @@ from weaver_console.measuring.processes import MeasuredProcess, console_process
 from weaver_console.measuring.real_page import measure_real_page
 from weaver_console.measuring.scene_watcher import SceneWatcher
 from weaver_shared.bus import free_port
-from weaver_shared.errors import ResourceError
+from weaver_shared.errors import InputError, ResourceError
 
 ROBOT = "made-1"
 NARROW = 100_000.0  # bytes/s
@@ -35,6 +35,9 @@ TRIAL = {
     "usable_ms": 2000.0,
 }
 """Measured of a first attempt of this console, which this one is to keep under; and how soon a page is to be of use."""
+
+CROWDS = {"1 page, in Chromium": 0, "4 pages, one in Chromium": 3, "10 pages, one in Chromium": 9}
+"""How many pages of others there are beside a real browser; the first of them has a narrow way."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,12 +60,15 @@ def main(arguments: list[str]) -> int:
         "10 pages, one at 100 kB/s": Case(pages=10, narrow=1),
     }
     wanted = {name: case for name, case in cases.items() if options.only in name}
+    crowds = {name: others for name, others in CROWDS.items() if options.only in name}
+    if not (wanted or crowds):
+        raise InputError(f"no case is called like {options.only!r}; there are {', '.join((*cases, *CROWDS))}")
     figures: dict[str, Any] = {}
     for name, case in wanted.items():
         print(f"bench console: {name}", file=sys.stderr, flush=True)
         figures[name] = measure(case, options.seconds)
     _add_scene_update(figures)
-    real = _measure_real_pages(options.clicks, options.only) if options.browser else {"skipped": "not asked for"}
+    real = _measure_real_pages(options.clicks, crowds) if options.browser else {"skipped": "not asked for"}
     if options.json:
         print(json.dumps({"console": figures, "real_page": real, "goal": TRIAL}))
     else:
@@ -70,19 +76,12 @@ def main(arguments: list[str]) -> int:
     return 0
 
 
-def _measure_real_pages(clicks: int, only: str) -> dict[str, Any]:
-    """A real browser alone, and beside the pages of others of which one has a narrow way."""
+def _measure_real_pages(clicks: int, crowds: dict[str, int]) -> dict[str, Any]:
     figures: dict[str, Any] = {}
-    for pages in (1, 4, 10):
-        name = f"{_pages(pages)}, one in Chromium"
-        if only in name:
-            print(f"bench console: {name}", file=sys.stderr, flush=True)
-            figures[name] = measure_real_page(clicks, pages - 1, narrow_rate=NARROW)
+    for name, others in crowds.items():
+        print(f"bench console: {name}", file=sys.stderr, flush=True)
+        figures[name] = measure_real_page(clicks, others, narrow_rate=NARROW)
     return figures
-
-
-def _pages(count: int) -> str:
-    return "1 page" if count == 1 else f"{count} pages"
 
 
 def measure(case: Case, seconds: float) -> dict[str, Any]:

@@ -65,6 +65,19 @@ it("an area binds the robot as soon as who controls it has closed, deleted or re
   await answer();
 });
 
+it("what another robot, or this one before it started anew, was told is sent again", async () => {
+  arrive("ada");
+  draw(2);
+  await Promise.resolve();
+  await answer();
+  resetAreas();
+  useDraft.getState().reset();
+  draw(2);
+  await Promise.resolve();
+  expect(told()).toEqual(["set_areas 3", "set_areas 3"]);
+  await answer();
+});
+
 it("two changes at once reach the robot in their order", async () => {
   arrive("ada");
   draw(2);

@@ -27,7 +27,9 @@ export function shareAreas(): void {
 async function sendNewest(): Promise<boolean> {
   const { areas } = useDraft.getState().draft;
   const { onRobot: before } = useAreas.getState();
-  if (sameAreas(areas, told?.before === before ? told.areas : before)) return true;
+  // Rather once too often: what it was told it may have lost since, with a restart or by somebody else's hand.
+  const undone = told?.before === before && !sameAreas(areas, told.areas);
+  if (sameAreas(areas, before) && !undone) return true;
   const name = areas.map((area) => area.length).join(" ");
   const { accepted } = await command("set_areas", { name, waypoints: areas.flat() });
   if (accepted) told = { areas, before };

@@ -4,7 +4,7 @@ import type { Mode } from "../protocol/messages";
 import { modeWords } from "../topbar/modes";
 
 /** By the rules of the robot's command desk and mode machine (docs/messages.md, ModeState). */
-export const ALLOWS: Record<Mode, string> = {
+const ALLOWS: Record<Mode, string> = {
   OFF: "Stand",
   READY: "Stand",
   STAND: "Sit, Start mission, driving, cruise, body and legs",
